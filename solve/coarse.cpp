@@ -1,5 +1,6 @@
 #include "solve/coarse.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>

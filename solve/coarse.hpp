@@ -7,7 +7,7 @@
 /// fill), so it costs about as much as two products, and applying it a fraction of one. Every
 /// process has the factor of all cells: it computes the rows of its own and gets the others.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <span>
 #include <vector>
 

@@ -67,7 +67,7 @@ check_threads() {
   build-tsan/tests/planted_race clean || fail "a sum without a race is told as one"
   # The tests whose names speak of threads, each in its own process.
   local name suite test found=0
-  for name in build-tsan/tests/*_test; do
+  for name in build-tsan/tests/*_tests; do
     suite=
     while IFS= read -r test; do
       case $test in

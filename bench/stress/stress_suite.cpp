@@ -24,7 +24,7 @@ namespace acinus::bench {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 /// Wall-time limit given to a run, and time after which it counts as hung for ignoring that limit,
 /// s.

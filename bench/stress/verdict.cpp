@@ -10,7 +10,7 @@
 namespace acinus::bench {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr std::array kOutcomes{
     TrialOutcome::kClean,     TrialOutcome::kNamed,     TrialOutcome::kStopped,

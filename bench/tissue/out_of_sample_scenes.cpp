@@ -7,8 +7,6 @@
 namespace acinus::bench {
 namespace {
 
-constexpr double kHour = 3600;
-
 /// Scenes for cells with a radius of 12 um.
 constexpr const char* kPlates = R"({
   "experiment": "free", "model": "dcm",
@@ -81,8 +79,8 @@ void shear(runs::Scene& s) {
           runs::PullEntry pull;
           pull.cell = static_cast<int>(s.cells.list.size());
           pull.by = runs::PullBy::kSpring;
-          pull.stiffness = 1;  // nN/um
-          pull.displacement.entry = {{0, 0}, {3 * kHour, kMove * layer}};
+          pull.stiffness = 1;                                          // nN/um
+          pull.displacement.entry = {{0, 0}, {10800, kMove * layer}};  // within 3 h
           s.pulls.push_back(pull);
         }
         s.cells.list.push_back(cell);

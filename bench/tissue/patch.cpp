@@ -46,7 +46,7 @@ double density_about(const runs::CellRecords& cells, std::int64_t id) {
   return std::pow(static_cast<double>(n) / sum, 3);
 }
 
-std::vector<PatchFrame> read_frames(const std::string& folder) {
+std::vector<PatchFrame> read_patch_frames(const std::string& folder) {
   const io::RunReader run(folder + "/run.vtkhdf");
   std::vector<PatchFrame> frames;
   for (int k = 0; k < run.n_frame(); ++k) {
@@ -123,7 +123,7 @@ struct Reference {
 
 BenchRow compare(const PatchVariant& v, const std::string& folder, const runs::Scene& shipped,
                  const Reference& reference) {
-  const std::vector<PatchFrame> frames = read_frames(folder);
+  const std::vector<PatchFrame> frames = read_patch_frames(folder);
   double pressure = 0, force = 0, density = 0, error = 0, shift = 0, worst = 0, reached = 0;
   int n = 0, cells = 0;
   std::vector<double> alone;  // pressure of the deformable ball at every frame
@@ -185,7 +185,7 @@ BenchTable bench_patch(const BenchOptions& options) {
   const std::string law = shipped.cell_types.begin()->second.cbm.stiffness_correction;
   const PatchVariant all = make_variant(shipped, "deformable cells only", 1, "none");
   run(all, root + "/" + all.folder, options.threads);
-  const Reference reference{read_frames(root + "/" + all.folder),
+  const Reference reference{read_patch_frames(root + "/" + all.folder),
                             runs::read_summary(root + "/" + all.folder).cpu_s};
   BenchTable table;
   for (const PatchVariant& v :

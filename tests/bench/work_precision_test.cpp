@@ -10,6 +10,7 @@
 #include "bench/work_precision/work_precision_run.hpp"
 #include "bench/work_precision/work_precision_scenes.hpp"
 #include "core/error.hpp"
+#include "tests/messages.hpp"
 
 namespace acinus::bench {
 namespace {
@@ -119,9 +120,7 @@ TEST(WorkPrecision, CheapestIsTheLeastCpuWithinTheError) {
   EXPECT_EQ(find_cheapest(outcomes, 0.035), &outcomes[2]);
   EXPECT_EQ(find_cheapest(outcomes, 0.005), nullptr);
   const std::string text = cheapest_text(two_cells(), outcomes);
-  EXPECT_NE(text.find("within 1 % on 162 nodes, 3-point: linearly-implicit, dt 60 s"),
-            std::string::npos)
-      << text;
+  EXPECT_CONTAINS(text, "within 1 % on 162 nodes, 3-point: linearly-implicit, dt 60 s");
   const io::Plot plot = make_plot(two_cells(), "t", outcomes, "y",
                                   [](const PrecisionOutcome& e) { return e.main_error; });
   ASSERT_EQ(plot.line.size(), 1U);

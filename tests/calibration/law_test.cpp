@@ -10,6 +10,7 @@
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
 #include "io/disk.hpp"
+#include "tests/messages.hpp"
 
 namespace acinus::calibration {
 namespace {
@@ -44,12 +45,7 @@ class LawFile : public testing::Test {
     EXPECT_NE(at, std::string::npos) << from;
     text.replace(at, from.size(), to);
     io::write_text_file(path(), text);
-    try {
-      read_law(path());
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "read";
+    return test::message_of([&] { read_law(path()); });
   }
 
  private:
@@ -80,8 +76,8 @@ TEST_F(LawFile, IsReadAsItWasWritten) {
 TEST_F(LawFile, BadOnesAreRefusedWithTheReason) {
   const auto expect = [&](const char* from, const char* to, const char* reason) {
     const std::string m = message(from, to);
-    EXPECT_NE(m.find(reason), std::string::npos) << from << " -> " << to << ": " << m;
-    EXPECT_NE(m.find("law.json"), std::string::npos) << m;
+    EXPECT_CONTAINS(m, reason) << from << " -> " << to;
+    EXPECT_CONTAINS(m, "law.json");
   };
   expect("\"schema_version\": 3", "\"schema_version\": 7", "another version");
   expect("0.45", "NaN", "not JSON");
@@ -97,12 +93,7 @@ TEST_F(LawFile, BadOnesAreRefusedWithTheReason) {
   expect("0.125", "0.126", "changed by hand");
   expect("2.5", "2.6", "changed by hand");
   expect("{", "", "not JSON");
-  try {
-    read_law("/nonexistent/law.json");
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), Exit::kFileError);
-  }
+  test::message_of([] { read_law("/nonexistent/law.json"); }, Exit::kFileError);
 }
 
 TEST_F(LawFile, NoNumberThatIsNotFiniteIsWritten) {

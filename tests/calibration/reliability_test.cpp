@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "tests/messages.hpp"
+
 namespace acinus::calibration {
 namespace {
 
@@ -15,9 +17,9 @@ TEST(Reliability, ClumpsThatStandForTissueGiveNoWarning) {
 TEST(Reliability, FewInnerCellsAreToldWithWhatTheyKnow) {
   const std::vector<std::string> five = list_warnings(5, 0.06);
   ASSERT_EQ(five.size(), 1u) << "27 cells: a small error by chance";
-  EXPECT_NE(five[0].find("cells that are not at the capsule: 5;"), std::string::npos) << five[0];
-  EXPECT_NE(five[0].find("a factor of 1.4"), std::string::npos) << five[0];
-  EXPECT_NE(five[0].find("--cells 59"), std::string::npos) << five[0];
+  EXPECT_CONTAINS(five[0], "cells that are not at the capsule: 5;");
+  EXPECT_CONTAINS(five[0], "a factor of 1.4");
+  EXPECT_CONTAINS(five[0], "--cells 59");
   EXPECT_EQ(list_warnings(kFewestInner - 1, 0).size(), 1u);
   EXPECT_EQ(list_warnings(kFewestInner, 0).size(), 0u);
 }
@@ -25,7 +27,7 @@ TEST(Reliability, FewInnerCellsAreToldWithWhatTheyKnow) {
 TEST(Reliability, AnErrorWhereNothingWasFittedIsTold) {
   const std::vector<std::string> buckled = list_warnings(15, 0.44);
   ASSERT_EQ(buckled.size(), 1u);
-  EXPECT_NE(buckled[0].find("44 % off"), std::string::npos) << buckled[0];
+  EXPECT_CONTAINS(buckled[0], "44 % off");
   EXPECT_EQ(list_warnings(1, 0.83).size(), 2u) << "15 cells";
   EXPECT_EQ(list_warnings(15, std::numeric_limits<double>::quiet_NaN()).size(), 1u);
 }

@@ -14,6 +14,8 @@
 #include "cli/wall_time.hpp"
 #include "core/error.hpp"
 #include "runs/session/shell_quote.hpp"
+#include "tests/messages.hpp"
+#include "tests/paths.hpp"
 
 namespace acinus::cli {
 namespace {
@@ -24,7 +26,7 @@ struct Outcome {
 };
 
 Outcome call(const std::string& arguments) {
-  FILE* pipe = popen((std::string(ACINUS_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
+  FILE* pipe = popen((test::program_path() + " " + arguments + " 2>&1").c_str(), "r");
   if (pipe == nullptr) return {-1, "popen failed"};
   std::string text;
   std::array<char, 4096> buffer{};
@@ -60,7 +62,7 @@ std::vector<std::string> command_names() {
   return names;
 }
 
-const std::string kScene = ACINUS_SOURCE_DIR "/runs/scenes/two_cells.json";
+const std::string kScene = test::source_path("runs/scenes/two_cells.json");
 
 TEST(Cli, WallTimes) {
   EXPECT_EQ(parse_wall_time("10min"), 600);
@@ -78,7 +80,7 @@ TEST(Cli, HelpOfEveryCommandHasAnExample) {
   for (const std::string& command : commands) {
     const Outcome outcome = call(command + " --help");
     EXPECT_EQ(outcome.code, 0) << command;
-    EXPECT_NE(outcome.text.find("Example: acinus " + command), std::string::npos) << outcome.text;
+    EXPECT_CONTAINS(outcome.text, "Example: acinus " + command);
   }
   EXPECT_EQ(call("--help").code, 0);
 }
@@ -107,7 +109,7 @@ TEST(Cli, MissingFilesExitWithFour) {
   EXPECT_EQ(call("run /no/such/scene.json").code, 4);
   const Outcome misspelt = call("run twocells");
   EXPECT_EQ(misspelt.code, 4);
-  EXPECT_NE(misspelt.text.find("Did you mean \"two_cells\"?"), std::string::npos) << misspelt.text;
+  EXPECT_CONTAINS(misspelt.text, "Did you mean \"two_cells\"?");
 }
 
 TEST(Cli, ReadersExitWithZero) {
@@ -161,15 +163,12 @@ TEST(Cli, PeriodsThatFillTheDiskOrNeverEndAreRefused) {
     EXPECT_EQ(outcome.code, 2) << set << "\n" << outcome.text;
     return outcome.text;
   };
-  EXPECT_NE(
-      text_of("output.every=1e-9 s")
-          .find("/output/every = \"1e-9 s\": asks for 3.6e+12 frames until /time/end = \"3600 "
-                "s\"; at most 1e+06 are possible. Raise it to at least \"0.0036 s\""),
-      std::string::npos)
-      << text_of("output.every=1e-9 s");
+  EXPECT_CONTAINS(text_of("output.every=1e-9 s"),
+                  "/output/every = \"1e-9 s\": asks for 3.6e+12 frames until /time/end = \"3600 "
+                  "s\"; at most 1e+06 are possible. Raise it to at least \"0.0036 s\"");
   for (const char* key : {"motility.random=true\' --set \'motility.grid", "life.grid",
                           "output.every", "time.min_step=1e-7 s\' --set \'time.step"})
-    EXPECT_NE(text_of(std::string(key) + "=1e-7 s").find(" asks for "), std::string::npos) << key;
+    EXPECT_CONTAINS(text_of(std::string(key) + "=1e-7 s"), " asks for ") << key;
   EXPECT_EQ(call("check " + kScene + " --set time.end=1h --set 'output.every=0.0036 s'").code, 0);
 }
 

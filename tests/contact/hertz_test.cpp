@@ -14,7 +14,7 @@ namespace {
 constexpr SphereBody kCell = {12.0, 0.45, 0.47};
 constexpr double kRoundOff = 1e-14;  // a dozen operations of 1.1e-16 each
 
-double relative(double value, double exact) { return test::relative(value, exact); }
+using test::relative;
 
 TEST(Hertz, ReducedPairOfEqualCells) {
   const SpherePair pair = reduced_pair(kCell, kCell, 0.01);

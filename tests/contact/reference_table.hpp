@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+#include "tests/paths.hpp"
 
 namespace acinus::test {
 
@@ -29,7 +30,7 @@ inline Row split_row(const std::string& line) {
 
 /// Rows of tests/data/reference/`name` without the header.
 inline std::vector<Row> read_reference(const std::string& name) {
-  const std::string path = ACINUS_TEST_DATA "/reference/" + name;
+  const std::string path = data_path("reference/" + name);
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + " cannot be read");
   std::vector<Row> rows;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/messages.hpp"
+
 namespace acinus {
 namespace {
 
@@ -17,8 +19,7 @@ TEST(JsonSize, RefusesWhatIsNestedTooDeep) {
        {repeated("[", 101), repeated("{\"a\":", 200'000), repeated("[{\"a\":", 60),
         "{\"a\": \"\\\"\", \"b\": " + repeated("[", 100), "/* \" */" + repeated("[", 200),
         "// \"\n" + repeated("[", 200)})
-    EXPECT_NE(fault_of_json_size(text).find("deeper than 100"), std::string::npos)
-        << text.substr(0, 40);
+    EXPECT_CONTAINS(fault_of_json_size(text), "deeper than 100") << text.substr(0, 40);
 }
 
 TEST(JsonSize, TakesBracketsInTextsAndCommentsForWhatTheyAre) {

@@ -7,19 +7,14 @@
 #include <random>
 
 #include "core/error.hpp"
+#include "tests/messages.hpp"
 
 namespace acinus {
 namespace {
 
 /// The message of the error, "" if there is none.
 std::string failure(const std::string& text, Dimension needed) {
-  try {
-    parse_quantity(text, needed);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), Exit::kBadInput);
-    return error.what();
-  }
-  return "";
+  return test::fault_of([&] { parse_quantity(text, needed); });
 }
 
 TEST(Units, TableOneInBaseUnitsIsExact) {

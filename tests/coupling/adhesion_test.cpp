@@ -14,8 +14,7 @@ namespace {
 
 Adhesion adhesion_at(double apart, int n_node, bool& any) {
   World world = make_test_world({{Vec3::Zero()}, {Vec3(apart, 0, 0)}}, 60, n_node);
-  Workspace work;
-  size_workspace(world, work);
+  SizedWorkspace work(world);
   observe(world, work);
   any = any_adhesion(world, work);
   return find_adhesion(world, work);

@@ -63,8 +63,7 @@ struct Count {
 };
 
 Count count_allocations(World& w, int warm_up, int n) {
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   Count count;
   for (int k = 0; k < warm_up + n; ++k) {
     const auto lists = work.dcm.lists.made + work.cbm.list_builds;

@@ -86,8 +86,7 @@ TEST(Apparatus, ActsInTheOrderInWhichDevicesWereAdded) {
 TEST(Apparatus, GivesEachDeviceTheFamiliesItAskedFor) {
   World w = make_test_world({{Vec3::Zero(), true}}, 1, 42);
   for (const auto& p : {probe(3, 2), probe(4), probe(5, 1)}) w.params.apparatus.add(p);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   const std::size_t own = work.system.rank_one.size() - 3;
   EXPECT_EQ(own, 2U) << "volume and area";
   solve::clear_loads(work.system);

@@ -30,8 +30,7 @@ World make_rows() {
     cells.push_back({Vec3(23.5 * k, 23.5, 0), false, k < 2 ? Vec3(-0.1, 0.2, 0) : Vec3::Zero()});
   World w = make_test_world(cells, 60, 42);
   w.params.numerics.cg = {1e-12, 20000};
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   run_steps(w, work, 1);
   return w;
 }
@@ -87,12 +86,10 @@ TEST(AwakePart, StepsAsTheWholeWorldDoesWithItsSleepersConstrained) {
 TEST(AwakePart, MakesNoDifferenceToTheBitWhereverItsWorkspaceWasMade) {
   World w = make_rows();
   put_to_sleep(w.state);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   run_steps(w, work, 3);
   World again = w;
-  Workspace fresh;
-  size_workspace(again, fresh);
+  SizedWorkspace fresh(again);
   run_steps(w, work, 3);
   run_steps(again, fresh, 3);
   EXPECT_EQ(hash_state(again.state), hash_state(w.state));
@@ -102,8 +99,7 @@ TEST(AwakePart, IsLeftOutWhenAllSleepAndMoveOn) {
   World w = make_rows();
   w.state.asleep.assign(w.state.dcm.n_lane() + w.state.cbm.n_cell(), 1);
   const World before = w;
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   AwakePart none;
   const StepResult r = advance(w, work, none, 45);
   EXPECT_TRUE(r.accepted);
@@ -126,8 +122,7 @@ World make_pulled_pair() {
                              {Vec3(200, 0, 0), true}},
                             60, 42);
   w.params.numerics.cg = {1e-10, 20000};
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   run_steps(w, work, 600);
   return w;
 }

@@ -14,13 +14,14 @@
 #include "core/numbers/random.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/measure/measure.hpp"
+#include "coupling/measure/pair_contacts.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {
 namespace {
 
-constexpr double kRamp = 0.1 * 86400;              ///< s
-const double kMotherRadius = 12 * std::cbrt(2.0);  ///< um
+constexpr double kRamp = 0.1 * 86400;                ///< s
+const double kDividingRadius = 12 * std::cbrt(2.0);  ///< um
 
 /// Puts the daughters of one sphere into its own place and at the end of the arrays.
 void divide_cell(World& world, std::size_t cell, const Vec3& direction) {
@@ -52,8 +53,7 @@ void divide_cell(World& world, std::size_t cell, const Vec3& direction) {
 
 World settled(World w) {
   w.params.numerics.cg.tolerance = 1e-6;
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   EXPECT_TRUE(run_until(w, work, 10 * 86400));
   return w;
 }
@@ -65,7 +65,7 @@ World resting_clump(int count, double capsule_radius = 0) {
   for (const Vec3& x :
        make_clump({Lattice::kFcc, count, 24.5, 0.3}, [&] { return random.uniform(); }))
     cells.push_back({x, false});
-  cells[0].radius = kMotherRadius;
+  cells[0].radius = kDividingRadius;
   World w = make_test_world(cells, 600);
   if (capsule_radius > 0) {
     contact::Capsule shell;
@@ -192,7 +192,7 @@ TEST(CbmDivision, DaughtersAloneEndAtTheJkrRestDistance) {
 
 TEST(CbmDivision, InAClumpAtRestIsGentle) {
   const contact::SpherePair pair = equal_pair();
-  const double closest = 2 * (kMotherRadius - 12);  // um, of the daughters' centres at birth
+  const double closest = 2 * (kDividingRadius - 12);  // um, of the daughters' centres at birth
   const double birth_force = contact::jkr_force(pair, 24 - closest, false).force;
   const double rest_overlap = contact::jkr_overlap(pair, 0),
                pull_off = std::abs(contact::jkr_special(pair).pull_off.force);
@@ -254,7 +254,7 @@ TEST(CbmDivision, InACompressedClumpStaysWithinTheCap) {
 }
 
 TEST(CbmDivision, AcrossANarrowGapFindsItsBalance) {
-  World narrow = make_test_world({{Vec3(0.1, 0, 0), false, Vec3::Zero(), kMotherRadius}}, 600);
+  World narrow = make_test_world({{Vec3(0.1, 0, 0), false, Vec3::Zero(), kDividingRadius}}, 600);
   for (double side : {-1.0, 1.0}) {
     contact::Plane wall;
     wall.point = {0, 0, -9 * side};
@@ -304,8 +304,7 @@ TEST(SphereStrength, DoesNotWeakenTheInterfaceWithDeformableCells) {
 
 TEST(SphereStrength, ScalesWhatIsMeasuredOfTwoYoungSpheres) {
   World w = make_test_world({{Vec3::Zero(), false}, {Vec3(22, 0, 0), false}});
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   observe(w, work);
   const CellMeasure full = measure_cells(w, work)[0];
   w.state.cbm.strength[1] = Ramp::constant(0.25);

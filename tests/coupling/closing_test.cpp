@@ -38,8 +38,7 @@ TEST(Closing, AStepStopsAtAWallItWouldHavePassed) {
   World w = falling_cell(Integrator::kLinearlyImplicit);
   const double free_fall = 60 * 3 / (0.1 * geometry::shared_icosphere(162).rest_area * 144);
   ASSERT_GT(free_fall, 0.3 + kControlledDepth) << "else there is nothing to see";
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   const StepResult step = take_step(w, work, 60);
   ASSERT_TRUE(step.accepted);
   std::printf("falls %.2f um freely, stands at %.4f um\n", free_fall, lowest(w));
@@ -53,8 +52,7 @@ TEST(Closing, AStepStopsAtAWallItWouldHavePassed) {
 
 /// Where all points are after one step.
 std::vector<double> step_once(World w) {
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   EXPECT_TRUE(take_step(w, work, 60).accepted);
   std::printf("lowest %.4f um, centre %.4f um\n", lowest(w), dcm::cell_center(w.state.dcm, 0).z());
   return gather_positions(w.state);
@@ -92,8 +90,7 @@ TEST(Closing, DepthInASoftVesselIsALoadAndNoReasonForAShorterStep) {
   w.params.boundary.vessels.material = {0, 0.6, 0.4, false};
   w.params.numerics.adaptive = true;
   w.params.numerics.tolerance = 10;
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   int rejections = 0;
   for (int step = 0; step < 20; ++step) {
     const StepResult result = take_step(w, work, 6);
@@ -113,8 +110,7 @@ TEST(Closing, DepthInASoftVesselIsALoadAndNoReasonForAShorterStep) {
 TEST(Closing, LeavesStepsAloneThatStayClear) {
   World w = falling_cell(Integrator::kLinearlyImplicit);
   w.state.dcm.pull[0] = Vec3(0, 0, -0.3);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   ASSERT_TRUE(take_step(w, work, 60).accepted);
   EXPECT_EQ(w.state.clock.solves, 1);
 }
@@ -127,8 +123,7 @@ TEST(Closing, BetweenCellsKeepsTheBalanceOfForces) {
   w.params.numerics.adaptive = true;
   w.params.numerics.tolerance = 10;
   w.params.numerics.cg = {1e-12, 20000};
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   const StepResult step = take_step(w, work, 60);
   ASSERT_TRUE(step.accepted) << step.cause;
   EXPECT_EQ(step.rejections, 0);

@@ -31,8 +31,7 @@ Outcome run(double step) {
     cells.push_back({x});
   World w = make_test_world(cells, step);
   w.params.numerics.cg.tolerance = 1e-4;
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   Outcome out;
   for (int hour = 1; hour <= 6; ++hour) {
     if (!run_until(w, work, 3600.0 * hour)) return out;

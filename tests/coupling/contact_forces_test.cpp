@@ -30,15 +30,6 @@ contact::Plane mirror_at(const Vec3& point, const Vec3& normal) {
   return plane;
 }
 
-struct Observed {
-  World world;
-  Workspace work;
-  explicit Observed(World w) : world(std::move(w)) {
-    size_workspace(world, work);
-    observe(world, work);
-  }
-};
-
 TEST(Reactions, OfWallsOnASphereAreThoseOfItsLaw) {
   World world = make_test_world({{Vec3::Zero(), false}});
   world.params.boundary.planes = {mirror_at(Vec3(-11, 0, 0), Vec3::UnitX()),
@@ -95,8 +86,7 @@ World compressed_box() {
 
 TEST(Reactions, OfOppositeWallsAgreeWhenTheCellsAreAtRest) {
   World world = compressed_box();
-  Workspace work;
-  size_workspace(world, work);
+  SizedWorkspace work(world);
   ASSERT_TRUE(run_until(world, work, 2 * 3600));
   const std::vector<double> before = gather_positions(world.state);
   ASSERT_TRUE(run_until(world, work, 2 * 3600 + 60));

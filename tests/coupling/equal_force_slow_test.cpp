@@ -17,8 +17,7 @@ double rest_overlap(bool second_deformable, double force) {
   World w = make_test_world({{Vec3(-12.1, 0, 0), true, Vec3(force, 0, 0)},
                              {Vec3(x, 0, 0), second_deformable, Vec3(-force, 0, 0)}},
                             300);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   EXPECT_TRUE(run_until(w, work, 86400));
   const Vec3 a = dcm::cell_center(w.state.dcm, 0);
   const Vec3 b =

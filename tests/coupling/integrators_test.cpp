@@ -51,8 +51,7 @@ std::vector<Vec3> nodes_of(const World& w) {
 
 std::vector<Vec3> relaxed(Integrator integrator, double step, double end = kEnd) {
   World w = stretched_cell(integrator, step);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   EXPECT_TRUE(run_until(w, work, end)) << name_of(integrator);
   return nodes_of(w);
 }
@@ -142,8 +141,7 @@ std::vector<Vec3> flowed(Integrator integrator, double step) {
     tension.force.push_back(0.5 * w.params.dcm[0].spring_stiffness *
                             (length - 12 * t.rest_length[e]));
   }
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   EXPECT_TRUE(run_until(w, work, kEnd)) << name_of(integrator);
   return nodes_of(w);
 }
@@ -168,8 +166,7 @@ TEST(SeriesDashpots, EveryIntegratorFollowsThemAtFirstOrder) {
 TEST(ExplicitEuler, IsToldAboveItsStabilityLimit) {
   for (const double step : {0.016, 0.02, 0.1, 1.0, 1e3, 1e300}) {
     World w = stretched_cell(Integrator::kExplicitEuler, step);
-    Workspace work;
-    size_workspace(w, work);
+    SizedWorkspace work(w);
     StepResult result;
     std::uint64_t before = 0;
     int accepted = 0;
@@ -191,8 +188,7 @@ TEST(ExplicitEuler, IsToldAboveItsStabilityLimit) {
 TEST(ExplicitEuler, RejectedStepsAreTriedAgainHalfAsLong) {
   World w = stretched_cell(Integrator::kExplicitEuler, 1000);
   w.params.numerics.min_step = 1e-4;
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   const StepResult result = take_step(w, work, 1000);
   std::printf("explicit Euler: %d rejections from 1000 s to %.3g s\n", result.rejections,
               result.step);
@@ -208,8 +204,7 @@ TEST(LinearlyImplicit, ASolveThatFailsGetsMoreIterations) {
   World w = make_test_world(
       {{Vec3(0, 0, 0), true, Vec3(0, 0, -3)}, {Vec3(0, 0, 23), true, Vec3::Zero()}}, 60, 162);
   w.params.numerics.cg = {1e-8, 12};
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   const StepResult step = take_step(w, work, 60);
   std::printf("%d rejections\n", step.rejections);
   EXPECT_TRUE(step.accepted);
@@ -283,8 +278,7 @@ TEST(Friction, OfTheMatrixIsThatOfOneWithoutStiffness) {
     shell.center = Vec3::Constant(11.75);
     shell.radius = 32;
     w.params.boundary.capsules = {shell};
-    Workspace work;
-    size_workspace(w, work);
+    SizedWorkspace work(w);
     ASSERT_TRUE(take_step(w, work, 60).accepted);
     const std::vector<double>& x = w.state.last_move;
     std::vector<double> wanted(x.size()), found(x.size()), external(x.size()), outside(x.size());

@@ -35,8 +35,7 @@ TEST(Interface, ForcesOnBothModelsSumToZero) {
     scenes.push_back({{Vec3::Zero()}, {23.5 * direction.normalized(), false}});
   for (const auto& scene : scenes) {
     const World world = make_test_world(scene);
-    Workspace work;
-    size_workspace(world, work);
+    SizedWorkspace work(world);
     const std::vector<double> with = forces(world, work, true),
                               without = forces(world, work, false);
     Vec3 dcm_sum = Vec3::Zero(), cbm_sum = Vec3::Zero();
@@ -58,8 +57,7 @@ TEST(Interface, ForcesOnBothModelsSumToZero) {
 
 TEST(Interface, ForceListAddsUpToTheForces) {
   const World world = make_test_world(checkered_cube(23.7));
-  Workspace work;
-  size_workspace(world, work);
+  SizedWorkspace work(world);
   const std::vector<double> with = forces(world, work, true);
   Vec3 listed = Vec3::Zero();
   double size = 0;
@@ -163,8 +161,7 @@ TEST(Interface, ACalibratedSphereHardensUnderAnIndentationDeeperThanItsOverlap) 
 World indented_sphere(double depth) {
   World w = make_test_world({{Vec3::Zero()}, {Vec3(1, 2, 3).normalized() * 24, false}});
   w.params.dcm[0].adhesion = w.params.cbm[0].adhesion = 0;
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   assemble(w, 1.0, work);
   double gap = 1;
   for (const contact::Contact& k : work.contacts.interface()) gap = std::min(gap, k.gap);
@@ -204,8 +201,7 @@ TEST(Interface, PressesOnThePresentAreaOfAStretchedSurface) {
 // present area, which a sphere that moves does not change.
 TEST(Interface, ForceOnTheSphereIsMinusTheGradientOfTheBedsEnergy) {
   World w = indented_sphere(0.8 * kLeastDepth * 12);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   const Address at = cbm::cell_address(0, 0);
   const Vec3 center = cbm::center_of(w.state.cbm, 0);
   const auto energy = [&](const Vec3& x) {
@@ -236,8 +232,7 @@ TEST(Step, SameBitsForOneAndTwoThreads) {
     World world = make_test_world(checkered_cube());
     world.params.motility.random = true;
     world.params.numerics.adaptive = true;
-    Workspace work;
-    size_workspace(world, work);
+    SizedWorkspace work(world);
     for (int k = 0; k < 10; ++k) ASSERT_TRUE(take_step(world, work, 1e9).accepted);
     hash[threads - 1] = hash_state(world.state);
   }
@@ -246,8 +241,7 @@ TEST(Step, SameBitsForOneAndTwoThreads) {
 
 TEST(Step, PairForcesBalance) {
   World world = make_test_world(checkered_cube());
-  Workspace work;
-  size_workspace(world, work);
+  SizedWorkspace work(world);
   for (int k = 0; k < 20; ++k) ASSERT_TRUE(take_step(world, work, 1e9).accepted);
   std::printf("momentum %.3g, torque %.3g\n", world.state.balance.momentum,
               world.state.balance.torque);
@@ -262,8 +256,7 @@ TEST(NodeFriction, BalancesMomentum) {
   for (std::size_t k = 0; k < 6; ++k) cells[k].deformable = true;  // so that some meet each other
   World world = make_test_world(cells);
   world.params.dcm_contact.friction_form = dcm::FrictionForm::kNodes;
-  Workspace work;
-  size_workspace(world, work);
+  SizedWorkspace work(world);
   ASSERT_TRUE(run_until(world, work, 1200));
   EXPECT_GT(work.system.point_links.size(), 500u);
   std::printf("momentum %.3g, torque %.3g, friction torque %.3g\n", world.state.balance.momentum,

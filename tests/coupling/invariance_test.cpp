@@ -51,8 +51,7 @@ World moved(World w, const Mat3& turn, const Vec3& shift) {
 }
 
 std::vector<CellMeasure> run(World world) {
-  Workspace work;
-  size_workspace(world, work);
+  SizedWorkspace work(world);
   EXPECT_TRUE(run_until(world, work, 1200));
   observe(world, work);
   return measure_cells(world, work);

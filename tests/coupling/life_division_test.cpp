@@ -21,11 +21,6 @@ TestCell mother(const Vec3& center, bool deformable = true) {
   return {center, deformable, Vec3::Zero(), kMotherRadius};
 }
 
-std::vector<Vec3> nodes_of(const State& s, std::int64_t id) {
-  std::vector<Vec3> node;
-  dcm::copy_nodes(s.dcm, index_cells(s).at(id).at, node);
-  return node;
-}
 double volume_of_mesh(const State& s, std::int64_t id) {
   return geometry::compute_volume(
       nodes_of(s, id), s.dcm.group[index_cells(s).at(id).at / kLanes].topology->triangle);
@@ -33,8 +28,7 @@ double volume_of_mesh(const State& s, std::int64_t id) {
 
 /// Steps as a run does; all must be accepted, and no cell may cross itself afterwards.
 void expect_to_go_on(World& w, double duration) {
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   const double end = w.state.clock.time + duration;
   int rejected = 0;
   while (w.state.clock.time < end - 1e-6) {
@@ -107,8 +101,7 @@ TEST(Division, TensionAndPressureOfTheMotherAreTheDaughters) {
   begin_with_mothers(w);
   // Five per mille more surface, 1.5 % more volume than at rest.
   for (double& x : w.state.dcm.position) x *= 1.005;
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   observe(w, work);
   const double pressure = measure_cells(w, work).at(0).cytosol_pressure;
   EXPECT_NEAR(pressure, -2.5 * 3 * std::log(1.005), 1e-9);
@@ -209,8 +202,7 @@ TEST(Division, HasTheSameBitsForOneAndTwoThreads) {
   for (int n : {1, 2}) {
     set_threads(n);
     World w = make_crowd();
-    Workspace work;
-    size_workspace(w, work);
+    SizedWorkspace work(w);
     for (int k = 0; k < 3; ++k) {
       ASSERT_TRUE(take_step(w, work, 60).accepted);
       live(w, work);
@@ -282,8 +274,7 @@ TEST(Division, OfASphereMakesTwoOfHalfTheVolumeWithinHer) {
   World w = make_living_world({mother({1, 2, 3}, false), {Vec3(27, 2, 3), false}});
   w.params.cbm[0].young_spread = 0.1;
   begin_with_mothers(w);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   ASSERT_TRUE(take_step(w, work, 1).accepted);
   ASSERT_EQ(w.state.cbm.touching.size(), 1u);
   const Vec3 center = cbm::center_of(w.state.cbm, 0);
@@ -318,8 +309,7 @@ TEST(Division, OneGenerationAfterAnotherDoublesTheCells) {
   World w = make_living_world({{Vec3::Zero(), false}}, 42, 600);
   w.params.life.type[0].time = 7200;
   begin_life(w);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   while (w.state.clock.time < 5 * 7200) {
     ASSERT_TRUE(take_step(w, work, 600).accepted);
     live(w, work);

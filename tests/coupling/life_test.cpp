@@ -13,6 +13,7 @@
 #include "coupling/step/sizing.hpp"
 #include "geometry/measures.hpp"
 #include "tests/coupling/lives.hpp"
+#include "tests/messages.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -128,8 +129,7 @@ Grown grow_alone(double viscosity, int n_node, double step = 60) {
   w.params.numerics.adaptive = false;
   w.params.numerics.cg = {1e-12, 20000};
   begin_life(w);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   for (double t = 0; t < 3600; t += step) EXPECT_TRUE(take_step(w, work, step).accepted);
   observe(w, work);
   const CellMeasure m = measure_cells(w, work).at(0);
@@ -257,8 +257,7 @@ TEST(Rules, HoldForAShareOfTheCellsOnceAndForAll) {
 TEST(Rules, PressureSlowsGrowth) {
   World w =
       make_living_world({{Vec3::Zero(), false}, {Vec3(20, 0, 0), false}, {Vec3(90, 0, 0), false}});
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   observe(w, work);
   const double pressure = measure_cells(w, work).at(0).pressure;
   ASSERT_GT(pressure, 1e-3);
@@ -323,8 +322,7 @@ TEST(Death, ByLysisShrinksToTheFinalVolumeThenRemoves) {
     rule.from = 1200;
     w.params.life.rule = {rule};
     begin_life(w);
-    Workspace work;
-    size_workspace(w, work);
+    SizedWorkspace work(w);
     double volume = 0;  // when it begins
     bool gone = false;
     while (w.state.clock.time < 8 * 3600 && !gone) {
@@ -362,8 +360,7 @@ TEST(Death, TakesTheDyingAloneWhenAStepFailsAtThem) {
   World w =
       make_living_world({{Vec3::Zero(), true}, {Vec3(30, 0, 0), true}, {Vec3(60, 0, 0), false}});
   begin_life(w);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   const std::int64_t all[] = {0, 1, 2};
   EXPECT_TRUE(remove_dying(w, work, all, "nobody dissolves").events.empty());
   for (std::int64_t id : {1, 2})
@@ -373,7 +370,7 @@ TEST(Death, TakesTheDyingAloneWhenAStepFailsAtThem) {
   ASSERT_EQ(report.events.size(), 2u);
   EXPECT_EQ(report.events[0].kind, EventKind::kDeathEarly);
   EXPECT_EQ(report.events[0].cells, Ids{1});
-  EXPECT_NE(report.events[0].message.find("a face would turn over"), std::string::npos);
+  EXPECT_CONTAINS(report.events[0].message, "a face would turn over");
   EXPECT_EQ(report.events[1].kind, EventKind::kDeath);
   EXPECT_EQ(report.events[1].cells, Ids{1});
   EXPECT_EQ(lineages(w.state), (Ids{0, 2}));
@@ -392,8 +389,7 @@ TEST(Death, OfTheLastDeformableCellsLeavesNoContactsBehind) {
     rule.from = 600;
     w.params.life.rule = {rule};
     begin_life(w);
-    Workspace work;
-    size_workspace(w, work);
+    SizedWorkspace work(w);
     while (w.state.clock.time < 1200) {
       const StepResult step = take_step(w, work, time_to_event(w));
       ASSERT_TRUE(step.accepted) << step.cause;

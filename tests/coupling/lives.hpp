@@ -48,8 +48,7 @@ inline void begin_with_mothers(World& w) {
 /// What happens to the cells at a later time, with nothing moved meanwhile.
 inline LifeReport look(World& w, double time) {
   w.state.clock.time = time;
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   return live(w, work);
 }
 

@@ -14,19 +14,13 @@
 namespace acinus::coupling {
 namespace {
 
-struct Observed {
-  World world;
-  Workspace work;
-  std::vector<CellMeasure> cell;
-  explicit Observed(World w) : world(std::move(w)) {
-    size_workspace(world, work);
-    observe(world, work);
-    cell = measure_cells(world, work);
-  }
+struct Measured : Observed {
+  explicit Measured(World w) : Observed(std::move(w)) {}
+  std::vector<CellMeasure> cell = measure_cells(world, work);
 };
 
 TEST(ContactForce, OfACellBetweenTwoIsTheSumOfBoth) {
-  const Observed o(
+  const Measured o(
       make_test_world({{Vec3(-22, 0, 0), false}, {Vec3::Zero(), false}, {Vec3(0, 23, 0), false}}));
   double left = 0, top = 0;
   for (const contact::Contact& c : o.work.contacts.sphere()) {
@@ -43,7 +37,7 @@ TEST(ContactForce, OfACellBetweenTwoIsTheSumOfBoth) {
 }
 
 TEST(ContactForce, IsTheSameOnBothModelsAndWhatTheSphereFeels) {
-  const Observed o(make_test_world({{Vec3::Zero(), true}, {Vec3(22.5, 2, 1), false}}));
+  const Measured o(make_test_world({{Vec3::Zero(), true}, {Vec3(22.5, 2, 1), false}}));
   ASSERT_EQ(o.cell.size(), 2U);
   const Address sphere = cbm::cell_address(cbm_first_row(o.world.state), 0);
   const double felt = load_point(o.work.system.force.data(), sphere).norm();
@@ -54,7 +48,7 @@ TEST(ContactForce, IsTheSameOnBothModelsAndWhatTheSphereFeels) {
 }
 
 TEST(ContactForce, OfTwoDeformableCellsIsTheSame) {
-  const Observed o(make_test_world({{Vec3::Zero(), true}, {Vec3(23, 1, 0), true}}));
+  const Measured o(make_test_world({{Vec3::Zero(), true}, {Vec3(23, 1, 0), true}}));
   EXPECT_GT(o.cell[0].contact_force, 0);
   EXPECT_EQ(o.cell[0].contact_force, o.cell[1].contact_force);
   EXPECT_EQ(o.cell[0].contacts, 1);
@@ -75,10 +69,10 @@ World between_plates(const std::vector<TestCell>& cells, double distance) {
 // What both plates press with, though their forces cancel.
 TEST(ContactForce, OfACellBetweenPlatesIsThatOfBoth) {
   for (const bool deformable : {false, true}) {
-    const Observed both(between_plates({{Vec3::Zero(), deformable}}, 22));
+    const Measured both(between_plates({{Vec3::Zero(), deformable}}, 22));
     World half = both.world;
     half.params.boundary.planes.pop_back();
-    const Observed one(half);
+    const Measured one(half);
     const CellMeasure &b = both.cell[0], &o = one.cell[0];
     EXPECT_GT(o.contact_force, 0) << deformable;
     EXPECT_EQ(b.contacts, 0);
@@ -100,16 +94,16 @@ TEST(ContactForce, CountsEveryWallAsAPartner) {
     plane.material.mirror = true;
     world.params.boundary.planes.push_back(plane);
   }
-  const Observed both(world);
+  const Measured both(world);
   world.params.boundary.planes.pop_back();
-  const Observed one(world);
+  const Measured one(world);
   EXPECT_GT(one.cell[0].contact_force, 0);
   EXPECT_GE(both.cell[0].contact_force, 2 * one.cell[0].contact_force * (1 - 1e-12));
   EXPECT_LT(both.cell[0].contact_force, 2.5 * one.cell[0].contact_force);
 }
 
 TEST(ContactForce, OfAPairIsTheForceAlongTheLineOfCentres) {
-  const Observed o(make_test_world({{Vec3(-11, 0, 0), false}, {Vec3(11, 0, 0), false}}));
+  const Measured o(make_test_world({{Vec3(-11, 0, 0), false}, {Vec3(11, 0, 0), false}}));
   EXPECT_GT(o.cell[0].normal_force, 0);
   EXPECT_NEAR(o.cell[0].normal_force, o.cell[0].contact_force, 1e-12 * o.cell[0].contact_force);
   EXPECT_EQ(o.cell[0].normal_force, o.cell[1].normal_force);
@@ -127,7 +121,7 @@ TEST(ContactArea, IsAPartOfThePresentSurface) {
     }
     // Everything within reach of the plates.
     scaled.params.dcm_contact.friction_range = 100;
-    const Observed o(scaled);
+    const Measured o(scaled);
     EXPECT_GT(o.cell[0].contact_area, 0.5 * o.cell[0].area);
     EXPECT_LE(o.cell[0].contact_area, o.cell[0].area);
   }

@@ -27,7 +27,7 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr double kRadius = 12;
+constexpr double kCellRadius = 12;
 
 enum class Damage { kNone, kNoise, kEdge, kNeedle, kFold };
 
@@ -69,7 +69,7 @@ std::vector<Vec3> make_spoiled(const geometry::Topology& t, const Case& c) {
   spoil(t, c.damage, c.noise, node);
   for (Vec3& x : node) x = shape->place(x);
   const double scale =
-      kRadius * std::cbrt(4 * kPi / 3 / geometry::compute_volume(node, t.triangle));
+      kCellRadius * std::cbrt(4 * kPi / 3 / geometry::compute_volume(node, t.triangle));
   for (Vec3& x : node) x = Vec3(30, -20, 10) + scale * x;
   return node;
 }
@@ -107,7 +107,7 @@ TEST(MeshHealth, OrdinaryShapesAreNotSuspicious) {
   const geometry::Topology& t = geometry::shared_icosphere(162);
   for (const auto& shape : reference::cell_shapes()) {
     const dcm::MeshHealth h = dcm::measure_health(
-        t, make_spoiled(t, {shape.name.c_str(), Damage::kNone, 0, ""}), kRadius);
+        t, make_spoiled(t, {shape.name.c_str(), Damage::kNone, 0, ""}), kCellRadius);
     std::printf("%-14s quality %.3f spacing %.3f fold %.2f\n", shape.name.c_str(), h.quality,
                 h.spacing, h.opposed);
     EXPECT_FALSE(dcm::is_suspicious(h)) << shape.name;
@@ -121,8 +121,8 @@ TEST_P(Mending, GivesASoundMeshOnTheSameSurface) {
   const geometry::Topology& t = geometry::shared_icosphere(162);
   const std::vector<Vec3> node = make_spoiled(t, c);
   const double volume = geometry::compute_volume(node, t.triangle);
-  ASSERT_TRUE(dcm::is_suspicious(dcm::measure_health(t, node, kRadius)));
-  const dcm::Mended m = dcm::mend_mesh(t, node, kRadius);
+  ASSERT_TRUE(dcm::is_suspicious(dcm::measure_health(t, node, kCellRadius)));
+  const dcm::Mended m = dcm::mend_mesh(t, node, kCellRadius);
   ASSERT_TRUE(m.ok) << m.why;
   const dcm::SurfaceShift shift = dcm::compare_surfaces(t, node, m.node);
   const double kept = geometry::compute_volume(m.node, t.triangle) / volume - 1;
@@ -161,8 +161,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(MeshHealth, HealthyCellsAreLeftAloneToTheBit) {
   World world = make_test_world({{Vec3(0, 0, 0)}, {Vec3(23.5, 0, 0)}});
-  Workspace work;
-  size_workspace(world, work);
+  SizedWorkspace work(world);
   ASSERT_TRUE(run_until(world, work, 600));
   world.state.clock.last_step = 60;
   const std::uint64_t before = hash_state(world.state);
@@ -174,8 +173,7 @@ TEST(MeshHealth, HopelessCellIsNamedAndNotTouched) {
   World world = make_test_world({{Vec3(30, -20, 10)}});
   const geometry::Topology& t = geometry::shared_icosphere(162);
   set_nodes(world, 0, make_spoiled(t, {"horseshoe", Damage::kNoise, 0.5, ""}));
-  Workspace work;
-  size_workspace(world, work);
+  SizedWorkspace work(world);
   world.state.clock.time = 600;
   world.state.clock.last_step = 60;
   const std::uint64_t before = hash_state(world.state);
@@ -193,8 +191,7 @@ TEST(MeshHealth, LooksOnlyWhenAStepCrossesTheTimeGrid) {
   World world = make_test_world({{Vec3(30, -20, 10)}});
   set_nodes(world, 0,
             make_spoiled(geometry::shared_icosphere(162), {"sphere", Damage::kEdge, 0, ""}));
-  Workspace work;
-  size_workspace(world, work);
+  SizedWorkspace work(world);
   LifeReport report;
   world.state.clock.last_step = 60;
   for (const double time : {60.0, 599.9, 660.0, 1199.0}) {
@@ -217,8 +214,7 @@ World make_packed() {
   world.params.numerics.adaptive = true;
   world.params.numerics.max_move = 0.3;
   for (dcm::Params& p : world.params.dcm) p.diffusion = 0;
-  Workspace work;
-  size_workspace(world, work);
+  SizedWorkspace work(world);
   EXPECT_TRUE(run_until(world, work, 3600));
   return world;
 }
@@ -241,8 +237,7 @@ void spoil_in_place(World& world, std::size_t lane, int node, double share) {
 /// Spoils the innermost cell and has it mended.   @return hash of the state a step later
 std::uint64_t mend_in_clump(const World& packed, double share, const char* name) {
   World world = packed;
-  Workspace work;
-  size_workspace(world, work);
+  SizedWorkspace work(world);
   observe(world, work);
   const std::vector<CellMeasure> sound = measure_cells(world, work);
   const double overlap_sound = deepest_overlap(world);
@@ -262,7 +257,8 @@ std::uint64_t mend_in_clump(const World& packed, double share, const char* name)
     World still = world;
     std::vector<Vec3> node;
     dcm::copy_nodes(still.state.dcm, inner, node);
-    set_nodes(still, inner, dcm::mend_mesh(geometry::shared_icosphere(162), node, kRadius).node);
+    set_nodes(still, inner,
+              dcm::mend_mesh(geometry::shared_icosphere(162), node, kCellRadius).node);
     overlap_put = deepest_overlap(still);
   }
   const LifeReport report = look(world, work);
@@ -326,15 +322,14 @@ TEST(MeshHealth, CellsThatRememberTheirBirthAreMendedAfterEveryStep) {
   for (const bool young : {true, false}) {
     World world = make_test_world({{Vec3(30, -20, 10)}});
     world.params.life.grid = 600;
-    Workspace work;
-    size_workspace(world, work);
+    SizedWorkspace work(world);
     set_nodes(world, 0, node);
     world.state.clock.phase = Phase::kRun;
     world.state.clock.time = 330;
     world.state.clock.last_step = 20;  // no grid point within it
     if (young)
       world.state.dcm.birth[0] =
-          dcm::make_birth_shape(t, node, kRadius, 1, {1, 0, 0, dcm::kForgetShape});
+          dcm::make_birth_shape(t, node, kCellRadius, 1, {1, 0, 0, dcm::kForgetShape});
     LifeReport report;
     mend_meshes(world, work, report);
     EXPECT_EQ(report.events.size(), young ? 1u : 0u);
@@ -353,8 +348,7 @@ TEST(MeshHealth, GrowingClumpIsNeverTouched) {
   world.params.life.type = {cycle};
   world.state.next_lineage = 1;
   begin_life(world);
-  Workspace work;
-  size_workspace(world, work);
+  SizedWorkspace work(world);
   const double start = thread_cpu_seconds();
   dcm::MeshHealth worst;
   while (dcm::count_cells(world.state.dcm) < 8 || world.state.clock.time < 19.5 * 3600) {

@@ -23,8 +23,7 @@ TEST(Motion, LoneCellMovesAtForceOverDrag) {
       World w = make_test_world({{Vec3(1, 2, 3), deformable, pull}});
       w.params.dcm[0].viscosity = w.params.cbm[0].viscosity = viscosity;
       w.params.numerics.cg.tolerance = 1e-10;
-      Workspace work;
-      size_workspace(w, work);
+      SizedWorkspace work(w);
       const Vec3 start = center(w, deformable);
       ASSERT_TRUE(run_until(w, work, 3600));
       const double surface =
@@ -45,8 +44,7 @@ double spread(bool deformable, double step, int reject_every, int n) {
   World w = make_test_world({{Vec3::Zero(), deformable}}, step, 42);
   w.params.motility.random = true;
   w.params.numerics.cg.tolerance = 1e-8;
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   double sum = 0;
   Vec3 last = center(w, deformable);
   for (int k = 1; k <= n; ++k) {
@@ -96,8 +94,7 @@ TEST(Motion, TimeOrderIsOne) {
   auto end = [](double step) {
     World w = make_test_world({{Vec3(-12.15, 0, 0)}, {Vec3(12.15, 0, 0)}}, step);
     w.params.numerics.cg = {1e-10, 20000};
-    Workspace work;
-    size_workspace(w, work);
+    SizedWorkspace work(w);
     EXPECT_TRUE(run_until(w, work, 960));
     return gather_positions(w.state);
   };

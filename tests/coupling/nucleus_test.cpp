@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "core/parallel/threads.hpp"
@@ -43,8 +44,7 @@ World nucleated_pair(Integrator integrator = Integrator::kLinearlyImplicit) {
 // but friction with the medium, which the pair's own forces cannot feel.
 TEST(NucleusInACell, ReturnsToTheMiddle) {
   World w = nucleated_pair();
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   const double before =
       geometry::compute_centroid(nucleus_of(w.state, 0), geometry::shared_icosphere(42).triangle)
           .y();
@@ -68,12 +68,10 @@ TEST_P(Integrators, GoOnBitForBitFromASavedState) {
   World through = nucleated_pair(GetParam());
   if (GetParam() == Integrator::kExplicitEuler) through.params.numerics.max_step = 1e-3;
   const double step = through.params.numerics.max_step;
-  Workspace work;
-  size_workspace(through, work);
+  SizedWorkspace work(through);
   for (int k = 0; k < 4; ++k) ASSERT_TRUE(take_step(through, work, step).accepted);
   World resumed = through;
-  Workspace fresh;
-  size_workspace(resumed, fresh);
+  SizedWorkspace fresh(resumed);
   for (int k = 0; k < 4; ++k) {
     ASSERT_TRUE(take_step(through, work, step).accepted);
     ASSERT_TRUE(take_step(resumed, fresh, step).accepted);
@@ -92,8 +90,7 @@ TEST(NucleusInACell, RestsAtTheSamePlaceForAllSteps) {
     World w = nucleated_pair();
     w.params.numerics.max_step = k == 0 ? 30 : 10;
     w.params.dcm[0].adhesion = 0;  // a pair that adheres goes on spreading for hours
-    Workspace work;
-    size_workspace(w, work);
+    SizedWorkspace work(w);
     ASSERT_TRUE(run_until(w, work, 4 * 3600));
     pressure[k] = nucleus_volume(w.state, 0);
     y[k] = dcm::cell_center(w.state.dcm, 0).y();
@@ -109,10 +106,11 @@ TEST(NucleusInACell, IsNoContactOfTheCell) {
   std::vector<Vec3> node = nucleus_of(w.state, 0);
   for (Vec3& x : node) x.y() += 1.5;  // against the cortex
   dcm::store_nucleus(node, 0, w.state.dcm);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   observe(w, work);
-  EXPECT_GT(work.system.links.size(), work.first_nucleus_link);
+  EXPECT_TRUE(std::ranges::any_of(work.system.links.load, [&](const auto& load) {
+    return work.contacts.kind_of(load.contact) == contact::ContactKind::kNucleus;
+  }));
   const std::vector<CellMeasure> cells = measure_cells(w, work);
   const NodeMeasure nodes = measure_nodes(w, work);
   EXPECT_EQ(cells[0].contacts, 1);
@@ -138,8 +136,7 @@ TEST(NucleusInACell, KeepsItAwakeWhileItMoves) {
   World w = make_test_world({{Vec3::Zero()}}, 30, 42);
   w.params.dcm[0].nucleus = dcm::Nucleus{};
   give_nuclei(w);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   observe(w, work);
   EXPECT_LT(unbalanced_traction(w, work)[0], 1e-12);
   // One node off its place pulls at nodes of the nucleus only: there are no links.
@@ -174,8 +171,7 @@ TEST(NucleusInACell, EachDaughterHasOne) {
     EXPECT_EQ(w.state.dcm.birth[lane].link.size(), 42u);
   }
   // On through mitosis, in which the links forget the shape of birth.
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   const double end = w.state.clock.time + 5400;
   while (w.state.clock.time < end - 1e-6) {
     const StepResult r = take_step(w, work, end - w.state.clock.time);
@@ -190,8 +186,7 @@ TEST(NucleusInACell, GrowsWithIt) {
   w.params.dcm[0].nucleus = dcm::Nucleus{};
   give_nuclei(w);
   begin_life(w);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   const double before = nucleus_volume(w.state, 0), cell = w.state.dcm.volume[0].at(0);
   const double end = 0.5 * kDay;
   while (w.state.clock.time < end - 1e-6)
@@ -216,8 +211,7 @@ TEST(NucleusInACell, SurvivesAFreshMesh) {
              b = load_point(w.state.dcm.position.data(), at(next));
   store_point(w.state.dcm.position.data(), at(20), 0.02 * a + 0.98 * b);
   const double before = nucleus_volume(w.state, 0);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   w.params.life.remesh = true;
   w.state.clock.time = w.params.life.grid;
   w.state.clock.last_step = w.params.life.grid;
@@ -238,8 +232,7 @@ TEST(NucleusInACell, ShrinksInLysis) {
   w.params.dcm[0].nucleus = dcm::Nucleus{};
   give_nuclei(w);
   w.state.dcm.volume[0] = {kBirthVolume, 0.2 * kBirthVolume, 0, 7200};
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   ASSERT_TRUE(run_until(w, work, 7200));
   EXPECT_EQ(find_nucleus_leak(w.state).depth_um, 0);
   EXPECT_NEAR(nucleus_volume(w.state, 0) / (0.2 * kBirthVolume / 8), 1, 0.05);
@@ -255,8 +248,7 @@ TEST(NucleusInACell, HasTheSameBitsForOneAndTwoThreads) {
     World w = make_test_world(cells, 60, 162);
     w.params.dcm[0].nucleus = dcm::Nucleus{.size = 0.75, .link_young = 0.1};
     give_nuclei(w);
-    Workspace work;
-    size_workspace(w, work);
+    SizedWorkspace work(w);
     for (int k = 0; k < 5; ++k) ASSERT_TRUE(take_step(w, work, 60).accepted);
     hash.push_back(hash_state(w.state));
   }

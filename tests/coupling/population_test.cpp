@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "coupling/world/cell.hpp"
-#include "tests/coupling/worlds.hpp"
+#include "tests/coupling/lives.hpp"
 #include "tests/reference/sample.hpp"
 
 namespace acinus::coupling {
@@ -71,12 +71,6 @@ State make_state(std::int64_t first_lineage = 0) {
   s.divisions = 5;
   s.deaths = 6;
   return s;
-}
-
-std::map<std::int64_t, Cell> index_cells(const State& s) {
-  std::map<std::int64_t, Cell> index;
-  for_each_cell(s, [&](const Cell& c) { index.emplace(lineage_of(s, c), c); });
-  return index;
 }
 
 Touching touching_lineages(const cbm::State& s) {

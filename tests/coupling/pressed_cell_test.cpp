@@ -34,8 +34,7 @@ World pressed_cell(bool extrapolate) {
 /// Steps it takes from 2.5 h to 3.5 h, where the cell bears some hundred Pa.
 std::int64_t steps_under_pressure(bool extrapolate) {
   World w = pressed_cell(extrapolate);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   EXPECT_TRUE(run_until(w, work, 9000));
   const std::int64_t before = w.state.clock.accepted;
   EXPECT_TRUE(run_until(w, work, 12600));
@@ -58,8 +57,7 @@ TEST(LookAhead, DoesNotSwingABulgeBetweenSpheres) {
 TEST(PressedCell, DentsASphereAsMuchAsItsPressureSays) {
   World w = pressed_cell(false);
   w.params.boundary.capsules[0].min_radius = 14.5;
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   for (int k = 8; k <= 12; ++k) {  // lower pressures are drowned by adhesion and tension
     ASSERT_TRUE(run_until(w, work, 900.0 * k));
     double depth = 0;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <array>
 
 #include "dcm/loads/loads.hpp"
@@ -15,10 +16,6 @@ namespace {
 using namespace dcm;
 
 using Springs = std::array<PullSpring, kLanes>;
-
-Vec3 load_of(const Cells& c, std::size_t lane, int i) {
-  return load_point(c.system.external_force.data(), node_address(c.state, lane, i));
-}
 
 /// Deformed cells with room for the springs in their system, and nothing else in it.
 Cells make_cells() {

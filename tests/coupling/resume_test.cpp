@@ -12,12 +12,12 @@ namespace acinus::coupling {
 namespace {
 
 constexpr int kSteps = 12;
-constexpr double kStep = 240;  ///< s
+constexpr double kLongStep = 240;  ///< s
 
 /// Eight cells of both models; a tight solve of long steps in packed cells, so that the coarse
 /// space comes on.
 World packed_cells(Integrator integrator) {
-  World w = make_test_world(checkered_cube(23.5), kStep, 42);
+  World w = make_test_world(checkered_cube(23.5), kLongStep, 42);
   w.params.motility.random = true;
   w.params.numerics.cg = {1e-8, 20000};
   w.params.numerics.integrator = integrator;
@@ -29,7 +29,7 @@ int take_steps(World& w, Workspace& work, int n) {
   int with_coarse = 0;
   for (int k = 0; k < n; ++k) {
     with_coarse += w.state.clock.coarse ? 1 : 0;
-    const StepResult result = take_step(w, work, kStep);
+    const StepResult result = take_step(w, work, kLongStep);
     if (!result.accepted) {
       std::printf("step %d failed: %s\n", k, result.cause.c_str());
       return -1;
@@ -42,8 +42,7 @@ class Resume : public testing::TestWithParam<Integrator> {};
 
 TEST_P(Resume, IsBitForBitWithTheCoarseSpaceOn) {
   World through = packed_cells(GetParam());
-  Workspace work;
-  size_workspace(through, work);
+  SizedWorkspace work(through);
   const int first = take_steps(through, work, kSteps / 2);
   ASSERT_GE(first, 0);
   ASSERT_TRUE(through.state.clock.coarse) << "the scene is too easy for this test";
@@ -55,8 +54,7 @@ TEST_P(Resume, IsBitForBitWithTheCoarseSpaceOn) {
 
   World resumed = packed_cells(GetParam());
   resumed.state = saved;
-  Workspace fresh;
-  size_workspace(resumed, fresh);
+  SizedWorkspace fresh(resumed);
   EXPECT_EQ(take_steps(resumed, fresh, kSteps / 2), second);
   EXPECT_EQ(hash_state(resumed.state), hash_state(through.state));
   EXPECT_EQ(resumed.state.clock.cg_iterations, through.state.clock.cg_iterations);
@@ -67,24 +65,21 @@ TEST_P(Resume, IsBitForBitWithTheCoarseSpaceOn) {
   World forgetful = packed_cells(GetParam());
   forgetful.state = saved;
   forgetful.state.clock.coarse = false;
-  Workspace other;
-  size_workspace(forgetful, other);
+  SizedWorkspace other(forgetful);
   EXPECT_GE(take_steps(forgetful, other, kSteps / 2), 0);
   EXPECT_NE(hash_state(forgetful.state), hash_state(through.state));
 }
 
 TEST_P(Resume, AStepThatIsInterruptedChangesNothing) {
   World through = packed_cells(GetParam());
-  Workspace work;
-  size_workspace(through, work);
+  SizedWorkspace work(through);
   ASSERT_GE(take_steps(through, work, 2), 0);
   World stopped = packed_cells(GetParam());
   stopped.state = through.state;
-  Workspace other;
-  size_workspace(stopped, other);
+  SizedWorkspace other(stopped);
   {
     const WallTimeLimit passed(0);
-    const StepResult result = take_step(stopped, other, kStep);
+    const StepResult result = take_step(stopped, other, kLongStep);
     EXPECT_FALSE(result.accepted);
     EXPECT_TRUE(result.interrupted);
   }

@@ -64,8 +64,7 @@ std::map<std::int64_t, double> pressures(const World& w, Workspace& work) {
 
 TEST(Sleep, ARestingClumpFallsAsleepAndMovesOnFromCheckToCheck) {
   World w = make_pressed_clump(true);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   EXPECT_EQ(time_to_event(w), 600);
   run_for(w, work, 600);
   EXPECT_LT(count_asleep(w.state), 8) << "pressed just now";
@@ -136,8 +135,7 @@ TEST(Sleep, APulledCellWakesAtTheNextLook) {
                              {Vec3(0, 200, 0), false}},
                             60, 42);
   w.params.sleep = {true, 600, 1e-3};
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   run_for(w, work, 4 * 3600);
   ASSERT_EQ(count_asleep(w.state), 6);
   // 5 nN over 4 pi (12 um)^2 are 2.8e-3 kPa: above twice the limit.
@@ -172,8 +170,7 @@ TEST(Sleep, CellsThatGrowOrAreJustBornStayAwake) {
   dcm::copy_nodes(w.state.dcm, 0, node);
   w.state.dcm.birth[0] =
       dcm::make_birth_shape(geometry::shared_icosphere(42), node, 12, 1, {1, 0, 0, 5000});
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   run_for(w, work, 4800);
   EXPECT_EQ(count_asleep(w.state), 1);
   EXPECT_TRUE(is_asleep(w.state, 2));
@@ -188,12 +185,10 @@ TEST(Sleep, CellsThatGrowOrAreJustBornStayAwake) {
 
 TEST(Sleep, GoesOnFromASavedStateBitForBit) {
   World w = make_pressed_clump(true);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   run_for(w, work, 1500);
   World resumed = w;
-  Workspace fresh;
-  size_workspace(resumed, fresh);
+  SizedWorkspace fresh(resumed);
   run_for(w, work, 2 * 3600);
   run_for(resumed, fresh, 2 * 3600);
   EXPECT_GT(count_asleep(w.state), 0);

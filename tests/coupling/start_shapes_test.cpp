@@ -73,8 +73,7 @@ TEST(StartShapes, TheCortexIsAtRestAndForgets) {
   EXPECT_EQ(b.weight.at(dcm::kForgetShape), 0);
   // Nothing but pressure and contact acts: what opens the clump is the volume that is missing.
   w.params.dcm[0].adhesion = 0;
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   const double before = volume_share(w, 0);
   while (w.state.clock.time < 600) ASSERT_TRUE(take_step(w, work, 600).accepted);
   EXPECT_GT(volume_share(w, 0), before);

@@ -31,10 +31,6 @@ TEST(OpticalStress, OfThePapersBeams) {
   EXPECT_NEAR(stress_amplitude(b), 0, 1e-18) << "nothing to bend the light";
 }
 
-Vec3 load_of(const Cells& c, std::size_t lane, int i) {
-  return load_point(c.system.external_force.data(), node_address(c.state, lane, i));
-}
-
 const StretchLoad kLoad{Vec3(1, 2, -2) / 3, 2, 1e-3};
 
 TEST(StretchLoad, LeavesNoNetForceOnAnyCell) {

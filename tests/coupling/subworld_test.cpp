@@ -28,24 +28,11 @@ World make_block() {
 /// The same with what only a state has that was stepped: last moves and contacts.
 World make_stepped_block() {
   World w = make_block();
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   for (int k = 0; k < 3; ++k) EXPECT_TRUE(take_step(w, work, 1).accepted);
   return w;
 }
 const CellSet kMiddle{{2}, {2}};
-
-std::vector<Vec3> nodes_of(const State& s, std::int64_t lineage) {
-  std::vector<Vec3> node;
-  for_each_cell(s, [&](const Cell& c) {
-    if (lineage_of(s, c) != lineage) return;
-    if (c.deformable)
-      dcm::copy_nodes(s.dcm, c.at, node);
-    else
-      node = {cbm::center_of(s.cbm, c.at)};
-  });
-  return node;
-}
 
 TEST(Subworld, NeighboursAreThoseWithinReach) {
   const World w = make_block();
@@ -116,8 +103,7 @@ TEST(Subworld, MovesAsTheWholeDoesInAShortStep) {
   World w = make_block();
   w.params.dcm_contact.cell_friction = w.params.cbm_contact.cell_friction = 0;
   w.params.interface.friction = 0;
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   w.state.dcm.pull[2] = w.state.cbm.pull[2] = Vec3::Zero();
   ASSERT_TRUE(run_until(w, work, 10 * 3600));  // neighbours at rest
   w.state.dcm.pull[2] = Vec3(0.1, 0.5, 0.2);
@@ -125,8 +111,7 @@ TEST(Subworld, MovesAsTheWholeDoesInAShortStep) {
   std::vector<double> wrong;
   for (double step : {2.56e-2, 1.28e-2, 6.4e-3}) {
     World whole = w;
-    Workspace whole_work;
-    size_workspace(whole, whole_work);
+    SizedWorkspace whole_work(whole);
     ASSERT_TRUE(take_step(whole, whole_work, step).accepted);
     Subworld sub;
     extract_at_rest(w, kMiddle, find_neighbours(w, kMiddle, 3), sub);
@@ -173,8 +158,7 @@ TEST(Subworld, WriteBackChangesTheMovingCellsOnly) {
   EXPECT_EQ(w.state.clock.accepted, before.clock.accepted);
   EXPECT_EQ(w.state.cbm.touching, before.cbm.touching) << "no contact was lost";
   EXPECT_FALSE(before.cbm.touching.empty());
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   for (int k = 0; k < 3; ++k) EXPECT_TRUE(take_step(w, work, 60).accepted);
 }
 

@@ -11,10 +11,6 @@ namespace {
 
 using namespace dcm;
 
-Vec3 load_of(const Cells& c, std::size_t lane, int i) {
-  return load_point(c.system.external_force.data(), node_address(c.state, lane, i));
-}
-
 /// Sum over the nodes, and of the sizes.
 std::pair<Vec3, double> total(const Cells& c, std::size_t lane) {
   Vec3 sum = Vec3::Zero();

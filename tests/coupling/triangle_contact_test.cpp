@@ -36,8 +36,7 @@ struct PairAtRest {
 };
 
 PairAtRest settle(World& world, double time) {
-  Workspace work;
-  size_workspace(world, work);
+  SizedWorkspace work(world);
   EXPECT_TRUE(run_until(world, work, time));
   observe(world, work);
   const std::vector<CellMeasure> cell = measure_cells(world, work);

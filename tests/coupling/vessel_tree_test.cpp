@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -16,14 +17,14 @@ namespace acinus::coupling {
 namespace {
 
 const TubeMaterial kSinusoid{0.6, 0.4, 1, 0, 0.1};
-constexpr double kRadius = 4;
+constexpr double kVesselRadius = 4;
 
 /// A straight vessel from the origin along a direction, in equal parts.
 geometry::Network straight_vessel(double length, int parts, const Vec3& direction = Vec3::UnitX()) {
   geometry::Network n;
   n.node = {Vec3::Zero(), length * direction};
   n.segment = {{0, 1}};
-  n.radius = {{kRadius, kRadius}};
+  n.radius = {{kVesselRadius, kVesselRadius}};
   return geometry::split_network(n, length / parts);
 }
 
@@ -79,7 +80,7 @@ TreeState balance(VesselTree tree, const Experiment& x) {
 
 TEST(VesselTree, BendsUnderLoadsAtItsEndAsABeamDoes) {
   const double length = 60, load = 1e-3;
-  const Tube tube{kRadius, kSinusoid.wall};
+  const Tube tube{kVesselRadius, kSinusoid.wall};
   const double bend = kSinusoid.young * tube.second_moment(),
                stretch = kSinusoid.young * tube.area();
   for (const int parts : {1, 4}) {
@@ -105,7 +106,7 @@ TEST(VesselTree, BendsUnderLoadsAtItsEndAsABeamDoes) {
 
 TEST(VesselTree, BendsUnderALoadInItsMiddleAsAClampedBeamDoes) {
   const double length = 60, load = 2e-3;
-  const double bend = kSinusoid.young * Tube{kRadius, kSinusoid.wall}.second_moment();
+  const double bend = kSinusoid.young * Tube{kVesselRadius, kSinusoid.wall}.second_moment();
   const VesselTree tree = make_tree(straight_vessel(length, 2), kSinusoid, VesselAnchors::kEnds);
   const TreeState s = balance(tree, {{0, 1}, {{2, load * Vec3::UnitZ()}}, {}});
   const double said = load * std::pow(length, 3) / (192 * bend);
@@ -116,7 +117,7 @@ TEST(VesselTree, BendsUnderALoadInItsMiddleAsAClampedBeamDoes) {
 TEST(VesselTree, BendsIntoACircle) {
   const double length = 60;
   const int parts = 24;
-  const double bend = kSinusoid.young * Tube{kRadius, kSinusoid.wall}.second_moment();
+  const double bend = kSinusoid.young * Tube{kVesselRadius, kSinusoid.wall}.second_moment();
   const VesselTree tree =
       make_tree(straight_vessel(length, parts), kSinusoid, VesselAnchors::kNone);
   const double moment = 2 * kPi * bend / length;
@@ -132,10 +133,10 @@ TEST(VesselTree, JointsCarryBendingAndTwist) {
   geometry::Network n;
   n.node = {Vec3::Zero(), Vec3(leg, 0, 0), Vec3(leg, leg, 0)};
   n.segment = {{0, 1}, {1, 2}};
-  n.radius = {{kRadius, kRadius}, {kRadius, kRadius}};
+  n.radius = {{kVesselRadius, kVesselRadius}, {kVesselRadius, kVesselRadius}};
   const VesselTree tree = make_tree(n, kSinusoid, VesselAnchors::kNone);
   const TreeState s = balance(tree, {{0}, {{2, load * Vec3::UnitZ()}}, {}});
-  const double bend = kSinusoid.young * Tube{kRadius, kSinusoid.wall}.second_moment();
+  const double bend = kSinusoid.young * Tube{kVesselRadius, kSinusoid.wall}.second_moment();
   const double said =
       load * std::pow(leg, 3) * (2.0 / 3 + 1 + kSinusoid.poisson) / bend;  // bends twice, twists
   EXPECT_NEAR(s.node[2].z(), said, 2e-3 * said);
@@ -153,7 +154,7 @@ TEST(VesselTree, HoldsWhatNothingElseHolds) {
   geometry::Network ring;
   ring.node = {Vec3::Zero(), Vec3(20, 0, 0), Vec3(0, 20, 0)};
   ring.segment = {{0, 1}, {1, 2}, {2, 0}};
-  ring.radius.assign(3, {kRadius, kRadius});
+  ring.radius.assign(3, {kVesselRadius, kVesselRadius});
   EXPECT_FALSE(make_tree(ring, kSinusoid, VesselAnchors::kEnds).has_ends());
 }
 
@@ -171,7 +172,8 @@ TEST(VesselTree, LeavesVesselsWhereTheyAreWithoutAState) {
 /// A cell that is pulled against the middle of a vessel.
 World cell_on_vessel(bool deformable, const TubeMaterial& material, double pull, bool flexible) {
   const double length = 48;
-  World w = make_test_world({{Vec3(0, 0, kRadius + 11.9), deformable, -pull * Vec3::UnitZ()}}, 120);
+  World w =
+      make_test_world({{Vec3(0, 0, kVesselRadius + 11.9), deformable, -pull * Vec3::UnitZ()}}, 120);
   geometry::Network n = straight_vessel(length, 8);
   for (Vec3& x : n.node) x.x() -= length / 2;
   contact::set_network(w.params.boundary.vessels, n);
@@ -188,8 +190,7 @@ World cell_on_vessel(bool deformable, const TubeMaterial& material, double pull,
 TEST(VesselTree, FloatsWithoutAnchors) {
   World w = cell_on_vessel(false, kSinusoid, 0.05, true);
   w.params.tree = make_tree(w.params.tree.rest, kSinusoid, VesselAnchors::kNone);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   ASSERT_TRUE(run_until(w, work, 20 * 3600));
   double highest = -1e9;
   for (const Vec3& x : w.state.tree.node) highest = std::max(highest, x.z());
@@ -200,8 +201,7 @@ TEST(VesselTree, FloatsWithoutAnchors) {
 TEST(VesselTree, ActsOnCellsAsTheyActOnIt) {
   for (const bool deformable : {true, false}) {
     World w = cell_on_vessel(deformable, kSinusoid, 0.1, true);
-    Workspace work;
-    size_workspace(w, work);
+    SizedWorkspace work(w);
     ASSERT_TRUE(run_until(w, work, 1200));
     assemble(w, 1, work);
     Vec3 on_cell = Vec3::Zero(), on_tree = Vec3::Zero(), torque = Vec3::Zero();
@@ -240,10 +240,10 @@ TEST(VesselTree, TouchesASphereOnceAtAJointThatBends) {
     TubeMaterial material = kSinusoid;
     material.poisson = 0;  // arms that grow longer keep their radius
     World w = cell_on_vessel(false, material, 0, true);
-    w.state.cbm.position[2 * kLanes] = (kRadius + 10.9) / std::cos(angle);  // z: as near to both
+    w.state.cbm.position[2 * kLanes] =
+        (kVesselRadius + 10.9) / std::cos(angle);  // z: as near to both
     for (Vec3& x : w.state.tree.node) x.z() = std::tan(angle) * std::abs(x.x());
-    Workspace work;
-    size_workspace(w, work);
+    SizedWorkspace work(w);
     assemble(w, 1, work);
     double sum = 0;
     for (const contact::Contact& k : work.contacts.all) sum += k.force * k.normal.z();
@@ -267,11 +267,10 @@ TEST(VesselTree, TouchesASphereOnceAtAJointThatBends) {
 
 TEST(VesselTree, BendsUnderACellAsMuchAsItPulls) {
   const double pull = 0.05, length = 48;
-  const double bend = kSinusoid.young * Tube{kRadius, kSinusoid.wall}.second_moment();
+  const double bend = kSinusoid.young * Tube{kVesselRadius, kSinusoid.wall}.second_moment();
   const double said = pull * std::pow(length, 3) / (192 * bend);
   World w = cell_on_vessel(false, kSinusoid, pull, true);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   ASSERT_TRUE(run_until(w, work, 20 * 3600));
   double lowest = 0;
   for (const Vec3& x : w.state.tree.node) lowest = std::min(lowest, x.z());
@@ -285,8 +284,7 @@ TEST(VesselTree, BendsUnderACellAsMuchAsItPulls) {
 TEST(VesselTree, StiffTubesAreRigidVessels) {
   for (const bool deformable : {true, false}) {
     World rigid = cell_on_vessel(deformable, kSinusoid, 0.1, false);
-    Workspace rigid_work;
-    size_workspace(rigid, rigid_work);
+    SizedWorkspace rigid_work(rigid);
     ASSERT_TRUE(run_until(rigid, rigid_work, 3600));
     const std::vector<double> at = gather_positions(rigid.state);
     double before = 0;
@@ -295,15 +293,16 @@ TEST(VesselTree, StiffTubesAreRigidVessels) {
       tube.young *= stiffer;
       World w = cell_on_vessel(deformable, tube, 0.1, true);
       w.params.boundary.vessels.material.young = kSinusoid.young;
-      Workspace work;
-      size_workspace(w, work);
+      SizedWorkspace work(w);
       ASSERT_TRUE(run_until(w, work, 3600));
       const std::vector<double> x = gather_positions(w.state);
       double apart = 0;
       for (std::size_t k = 0; k < at.size(); ++k) apart = std::max(apart, std::abs(x[k] - at[k]));
       std::printf("%s: tubes %.0e times as stiff: %.3g um from rigid\n", deformable ? "DCM" : "CBM",
                   stiffer, apart);
-      if (before > 0 && before > 1e-6) EXPECT_LT(apart, 0.5 * before);
+      if (before > 0 && before > 1e-6) {
+        EXPECT_LT(apart, 0.5 * before);
+      }
       before = apart;
     }
     EXPECT_LT(before, 3e-4);  // what the solver leaves

@@ -14,14 +14,14 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr double kRadius = 5;
+constexpr double kForkRadius = 5;
 
 /// Three vessels that meet in the origin.
 geometry::Network fork() {
   geometry::Network n;
   n.node = {Vec3::Zero(), Vec3(-40, 0, 0), Vec3(30, 28, 0), Vec3(30, -28, 5)};
   n.segment = {{0, 1}, {0, 2}, {0, 3}};
-  n.radius = {{kRadius, 6}, {kRadius, 4}, {kRadius, 4}};
+  n.radius = {{kForkRadius, 6}, {kForkRadius, 4}, {kForkRadius, 4}};
   return n;
 }
 
@@ -77,8 +77,7 @@ TEST(WallMesh, FallsBackOnConesWhereThereIsNoWall) {
 Vec3 force_on_cell(bool deformable, bool mesh, double depth) {
   World w = make_test_world({{Vec3(-25, 0, 12 + 5.6 - depth), deformable}});
   w.params.boundary.vessels = vessels_of(fork(), mesh);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   assemble(w, 1, work);
   Vec3 sum = Vec3::Zero();
   for (std::size_t row = 0; row < work.system.n_row; ++row)

@@ -2,12 +2,16 @@
 /// Small hybrid worlds with Table 1 constants, made without a scene.
 
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
+#include "coupling/measure/measure.hpp"
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/step/sizing.hpp"
 #include "coupling/step/step.hpp"
+#include "coupling/world/cell.hpp"
 #include "coupling/world/world.hpp"
 #include "geometry/topology.hpp"
 
@@ -82,6 +86,11 @@ inline void give_nuclei(World& w) {
   w.state.dcm = dcm::make_state(shells);
 }
 
+/// Scratch of a world's size.
+struct SizedWorkspace : Workspace {
+  explicit SizedWorkspace(const World& w) { size_workspace(w, *this); }
+};
+
 /// Steps until the time is reached; returns false if a step failed.
 inline bool run_until(World& world, Workspace& work, double time) {
   AwakePart awake;
@@ -92,6 +101,26 @@ inline bool run_until(World& world, Workspace& work, double time) {
     return false;
   }
   return true;
+}
+
+/// A world with the forces of its contacts as they are reported, without a step.
+struct Observed {
+  World world;
+  SizedWorkspace work{world};
+  explicit Observed(World w) : world(std::move(w)) { observe(world, work); }
+};
+
+/// Nodes of the cell, or the centre of a sphere.
+inline std::vector<Vec3> nodes_of(const State& s, std::int64_t lineage) {
+  std::vector<Vec3> node;
+  for_each_cell(s, [&](const Cell& c) {
+    if (lineage_of(s, c) != lineage) return;
+    if (c.deformable)
+      dcm::copy_nodes(s.dcm, c.at, node);
+    else
+      node = {cbm::center_of(s.cbm, c.at)};
+  });
+  return node;
 }
 
 /// Four of each model in a checkered cube, just touching: every kind of pair occurs.

@@ -75,8 +75,7 @@ TEST(ZoomSlow, TwoHundredChanges) {
   Tally all;
   for (const Tissue tissue : {Tissue::kPacked, Tissue::kSheared, Tissue::kGrowing}) {
     World w = make_tissue(tissue, 1);
-    Workspace work;
-    size_workspace(w, work);
+    SizedWorkspace work(w);
     run(w, work, 3600);
     UniformStream random(2, Purpose::kSampling, 0);
     Tally tally;

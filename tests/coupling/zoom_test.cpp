@@ -16,8 +16,7 @@ namespace {
 
 TEST(Zoom, NothingChangesWhereNoCellCrossesARegion) {
   World w = make_clump_world(2, 23, [](int k) { return k < 4; });
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   run(w, work, 600);
   w.params.zoom.region = {ball(Vec3(0, 0, -500), 500)};  // the lower four
   const std::uint64_t before = hash_state(w.state);
@@ -31,8 +30,7 @@ TEST(Zoom, ACellKeepsWhatItIsBesideItsModel) {
   w.state.cbm.pull[13] = Vec3(0.1, 0.2, 0.3);
   w.state.cycle.assign(27, Cycle{});
   w.state.cycle[13].duration = 123;
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   run(w, work, 600);
   const Vec3 center = cbm::center_of(w.state.cbm, 13);
   w.params.zoom.region = {ball(center, 5)};
@@ -73,8 +71,7 @@ TEST(Zoom, AChangeJumpsNeitherPressureNorForces) {
   for (const double distance : {23.0, 22.0, 21.0}) {
     for (const bool to_mesh : {true, false}) {
       World w = make_clump_world(3, distance, [&](int k) { return k == 13 && !to_mesh; });
-      Workspace work;
-      size_workspace(w, work);
+      SizedWorkspace work(w);
       run(w, work, 600);
       const Jump jump = change_one(w, work, 13);
       std::printf(
@@ -106,8 +103,7 @@ TEST(Zoom, AFadingForceDoesNotDriveCellsAway) {
   before[{w.state.cbm.lineage[2], kNoPartner}] = {Vec3(0, 2, 0), -24};
   add_fading(w, before, {}, w.state.fading);
   ASSERT_EQ(w.state.fading.size(), 2u);
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   run(w, work, 600);
   const Vec3 apart = cbm::center_of(w.state.cbm, 1) - cbm::center_of(w.state.cbm, 0);
   EXPECT_GT(apart.x(), 25);  // it does act

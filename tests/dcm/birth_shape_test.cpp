@@ -17,7 +17,7 @@ namespace {
 
 using reference::kEps;
 
-constexpr double kRadius = 12;                   ///< um, of a daughter
+constexpr double kDaughterRadius = 12;           ///< um, of a daughter
 constexpr std::size_t kDaughters[] = {0, 2, 5};  ///< lanes with a shape of birth
 const std::vector<const char*> kReshaped{"cortex", "area", "local_area"};
 
@@ -31,18 +31,18 @@ const Term& term_of(const std::string& name) {
 /// Half of a sphere of twice the volume: a flat cap and a round shell.
 std::vector<Vec3> half_sphere(const geometry::Topology& t) {
   std::vector<Vec3> mother;
-  for (const Vec3& x : t.rest) mother.push_back(kRadius * std::cbrt(2.0) * x);
+  for (const Vec3& x : t.rest) mother.push_back(kDaughterRadius * std::cbrt(2.0) * x);
   return split_cell(t, mother, Vec3(1, 2, 2) / 3).daughters.value().node[0];
 }
 
 /// Half spheres in some lanes of a group, round cells in the others.
 Cells make_half_spheres(double stretch, const Ramp& weight) {
   const geometry::Topology& t = geometry::shared_icosphere(162);
-  Cells c = make_rest_cells(t, std::vector<double>(kLanes, kRadius));
+  Cells c = make_rest_cells(t, std::vector<double>(kLanes, kDaughterRadius));
   const std::vector<Vec3> half = half_sphere(t);
   for (std::size_t lane : kDaughters) {
     for (int i = 0; i < t.n_node; ++i) c.move(lane, i, half[i]);
-    c.state.birth[lane] = make_birth_shape(t, half, kRadius, stretch, weight);
+    c.state.birth[lane] = make_birth_shape(t, half, kDaughterRadius, stretch, weight);
   }
   c.reset();
   return c;

@@ -74,6 +74,11 @@ struct Cells {
   }
 };
 
+/// Force of a device on a node.
+inline Vec3 load_of(const Cells& c, std::size_t lane, int i) {
+  return load_point(c.system.external_force.data(), node_address(c.state, lane, i));
+}
+
 /// Largest difference of a force of the lane from minus the slope of `energy()`, nN.
 template <class Energy>
 double worst_slope_error(Cells& c, std::size_t lane, const Energy& energy) {

@@ -25,10 +25,10 @@ const geometry::Topology& tetrahedron() {
 }
 
 /// A tetrahedron cell of radius 1 blown up by a factor; rest edge and circumradius.
-struct Blown {
+struct BlownTetrahedron {
   Cells c = make_rest_cells(tetrahedron(), {1, 2});
   double edge = std::cbrt(4.0 / 3 * kPi * 6 * std::sqrt(2.0)), around = std::sqrt(3.0 / 8) * edge;
-  explicit Blown(double factor) {
+  explicit BlownTetrahedron(double factor) {
     for (int i = 0; i < 4; ++i) c.move(0, i, factor * c.node(0, i));
   }
   /// Outward force on every node must be the given number.
@@ -42,14 +42,14 @@ struct Blown {
 };
 
 TEST(Topology, TetrahedronIsInflatedToTheUnitCell) {
-  const Blown b(1);
+  const BlownTetrahedron b(1);
   EXPECT_NEAR(tetrahedron().mean_rest_length, b.edge, 1e-14 * b.edge);
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(b.c.node(1, i).norm(), 2 * b.around, 1e-14 * b.around);
 }
 
 // Three springs meet at a corner, each sqrt(2/3) along the axis: F = 3 sqrt(2/3) k (s - 1) a.
 TEST(Cortex, ForceOfABlownTetrahedron) {
-  Blown b(1.2);
+  BlownTetrahedron b(1.2);
   Params p = params_without_terms();
   p.spring_stiffness = 0.5;
   add_cortex(p, b.c.view(), b.c.system);
@@ -59,7 +59,7 @@ TEST(Cortex, ForceOfABlownTetrahedron) {
 
 // dV/dx_i is a third of the opposite face: sqrt(3)/4 a^2 / 3.
 TEST(Volume, ForceOfABlownTetrahedron) {
-  Blown b(1.1);
+  BlownTetrahedron b(1.1);
   Params p = params_without_terms();
   p.bulk_modulus = 2.5;
   add_volume(p, b.c.view(), b.c.system, b.c.system.rank_one[0]);
@@ -74,7 +74,7 @@ TEST(Area, ForceOfABlownTetrahedron) {
   const double s = 1.1;
   Params p = params_without_terms();
   p.area_modulus = p.local_area_modulus = 0.8;
-  Blown global(s), local(s);
+  BlownTetrahedron global(s), local(s);
   add_area(p, global.c.view(), global.c.system, global.c.system.rank_one[1]);
   add_local_area(p, local.c.view(), local.c.system);
   const double area = std::sqrt(3.0) * std::pow(s * global.edge, 2);
@@ -86,7 +86,7 @@ TEST(Area, ForceOfABlownTetrahedron) {
 // The corner of a cube: three right angles and three of arccos(1/sqrt 3) inside, against
 // arccos(1/3); the three are folds, beyond a half of cosine.
 TEST(Bending, EnergyOfACubeCorner) {
-  Blown b(1);
+  BlownTetrahedron b(1);
   const Vec3 corner[4] = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
   for (int i = 0; i < 4; ++i) b.c.move(0, i, corner[i]);
   ASSERT_GT(compute_volumes(b.c.view())[0], 0) << "corners must be in outward order";
@@ -125,7 +125,7 @@ TEST(Bending, PushedInCornerIsPushedOut) {
 }
 
 TEST(Cortex, IsotropicDashpotsResistAllRelativeMotion) {
-  Blown b(1);
+  BlownTetrahedron b(1);
   Params p = params_without_terms();
   p.nodal_friction = 0.1;
   b.c.system.friction_scale = 0.25;
@@ -140,7 +140,7 @@ TEST(Cortex, IsotropicDashpotsResistAllRelativeMotion) {
 }
 
 TEST(Cortex, AxialDashpotsResistStretchOnly) {
-  Blown b(1);
+  BlownTetrahedron b(1);
   Params p = params_without_terms();
   p.nodal_friction = 0.1;
   p.friction_across = 0;
@@ -152,7 +152,7 @@ TEST(Cortex, AxialDashpotsResistStretchOnly) {
 }
 
 TEST(Cortex, FrictionAcrossAnEdgeIsAShareOfThatAlongIt) {
-  Blown b(1);
+  BlownTetrahedron b(1);
   Params p = params_without_terms();
   p.nodal_friction = 0.1;
   p.friction_across = 0.3;

@@ -31,7 +31,7 @@ NucleatedCells pressed(int n_node = 162) {
 }
 
 /// Adds one of the three kinds of forces; the others stay out of it.
-enum class ContactKind { kShell, kLinks, kContact };
+enum class Kind { kShell, kLinks, kContact };
 
 void add(Kind kind, NucleatedCells& c) {
   c.reset();

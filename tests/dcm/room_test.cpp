@@ -12,12 +12,12 @@
 namespace acinus::dcm {
 namespace {
 
-constexpr double kRadius = 12;  // um
-const geometry::Topology& icosphere = geometry::shared_icosphere(642);
+constexpr double kRoomRadius = 12;  // um
+const geometry::Topology& fine_icosphere = geometry::shared_icosphere(642);
 
 std::vector<Vec3> directions(const Mat3& rotation) {
   std::vector<Vec3> direction;
-  for (const Vec3& rest : icosphere.rest) direction.push_back((rotation * rest).normalized());
+  for (const Vec3& rest : fine_icosphere.rest) direction.push_back((rotation * rest).normalized());
   return direction;
 }
 
@@ -39,24 +39,24 @@ TEST(Room, TheFaceBetweenTwoBallsIsTheirCircle) {
 }
 
 Room make_room(const Vec3& center, std::span<const RoomFace> face) {
-  return {center, [face](const Vec3& d) { return reach_to_faces(d, 2 * kRadius, face); }};
+  return {center, [face](const Vec3& d) { return reach_to_faces(d, 2 * kRoomRadius, face); }};
 }
 
 TEST(Room, WithoutFacesIsTheBall) {
   const Room room = make_room(Vec3::Zero(), {});
-  const auto node = room.fill(icosphere, directions(Mat3::Identity()), kRadius);
+  const auto node = room.fill(fine_icosphere, directions(Mat3::Identity()), kRoomRadius);
   for (const Vec3& x : node)
-    EXPECT_NEAR(x.norm(), kRadius, 1e-2);  // spread over faces of 642 nodes
+    EXPECT_NEAR(x.norm(), kRoomRadius, 1e-2);  // spread over faces of 642 nodes
 }
 
 TEST(Room, IsAsLargeAsAsked) {
   const RoomFace face{Vec3(0, 0, 1), 6};
   const Room room = make_room(Vec3(1, 2, 3), std::span(&face, 1));
-  const double wanted = 4.0 / 3 * kPi * std::pow(kRadius, 3);
-  const double radius = room.find_radius(wanted, 2 * kRadius);
-  EXPECT_GT(radius, kRadius);
+  const double wanted = 4.0 / 3 * kPi * std::pow(kRoomRadius, 3);
+  const double radius = room.find_radius(wanted, 2 * kRoomRadius);
+  EXPECT_GT(radius, kRoomRadius);
   EXPECT_NEAR(room.volume(radius) / wanted, 1, 1e-9);
-  EXPECT_EQ(room.find_radius(10 * wanted, 1.5 * kRadius), 1.5 * kRadius);
+  EXPECT_EQ(room.find_radius(10 * wanted, 1.5 * kRoomRadius), 1.5 * kRoomRadius);
 }
 
 TEST(Room, ABallCutByAPlaneHasItsVolumeAndStaysBelow) {
@@ -66,15 +66,15 @@ TEST(Room, ABallCutByAPlaneHasItsVolumeAndStaysBelow) {
     const RoomFace face{turn * Vec3(0, 0, 1), height};
     const Vec3 center(3, -4, 5);
     const auto node =
-        make_room(center, std::span(&face, 1)).fill(icosphere, directions(turn), kRadius);
+        make_room(center, std::span(&face, 1)).fill(fine_icosphere, directions(turn), kRoomRadius);
     for (const Vec3& x : node) {
       EXPECT_LE(face.normal.dot(x - center), height + 1e-9);
-      EXPECT_LE((x - center).norm(), kRadius * (1 + 1e-12));
+      EXPECT_LE((x - center).norm(), kRoomRadius * (1 + 1e-12));
     }
     // The chords of 642 nodes lose 1 % of a ball.
-    const double volume = geometry::compute_volume(node, icosphere.triangle);
-    EXPECT_NEAR(volume / ball_below(kRadius, height), 0.985, 0.015) << height;
-    EXPECT_TRUE(faces_outward(icosphere, node, center));
+    const double volume = geometry::compute_volume(node, fine_icosphere.triangle);
+    EXPECT_NEAR(volume / ball_below(kRoomRadius, height), 0.985, 0.015) << height;
+    EXPECT_TRUE(faces_outward(fine_icosphere, node, center));
   }
 }
 
@@ -84,15 +84,16 @@ TEST(Room, MeshesOfNarrowRoomsAreSound) {
     std::vector<RoomFace> face;
     const int n = 1 + trial % 14;
     for (int k = 0; k < n; ++k)
-      face.push_back({reference::random_vector(random, 1).normalized(),
-                      kRadius * (0.15 + 0.8 * std::abs(reference::random_vector(random, 1).x()))});
-    const auto node =
-        make_room(Vec3::Zero(), face).fill(icosphere, directions(Mat3::Identity()), kRadius);
+      face.push_back(
+          {reference::random_vector(random, 1).normalized(),
+           kRoomRadius * (0.15 + 0.8 * std::abs(reference::random_vector(random, 1).x()))});
+    const auto node = make_room(Vec3::Zero(), face)
+                          .fill(fine_icosphere, directions(Mat3::Identity()), kRoomRadius);
     for (const Vec3& x : node)
       for (const RoomFace& f : face) EXPECT_LE(f.normal.dot(x), f.distance + 1e-9);
-    EXPECT_TRUE(faces_outward(icosphere, node, Vec3::Zero())) << trial;
-    EXPECT_FALSE(geometry::AuditBody(node, icosphere.triangle).self_intersects()) << trial;
-    EXPECT_GT(geometry::compute_quality(node, icosphere.triangle), 0.02) << trial;
+    EXPECT_TRUE(faces_outward(fine_icosphere, node, Vec3::Zero())) << trial;
+    EXPECT_FALSE(geometry::AuditBody(node, fine_icosphere.triangle).self_intersects()) << trial;
+    EXPECT_GT(geometry::compute_quality(node, fine_icosphere.triangle), 0.02) << trial;
   }
 }
 

@@ -21,7 +21,7 @@ namespace {
 
 using reference::kEps;
 
-constexpr double kRadius = 15.1;  // um, a mother of twice the volume of a cell of 12 um
+constexpr double kMotherRadius = 15.1;  // um, a mother of twice the volume of a cell of 12 um
 const geometry::Topology& icosphere = geometry::shared_icosphere(162);
 
 double distance_to_loop(const Vec3& x, std::span<const Vec3> loop) {
@@ -192,7 +192,7 @@ Tally split_many(const geometry::Topology& topology, const reference::CellShape&
   tally.n_case = n_case;
   for (int n = 0; n < n_case; ++n) {
     const geometry::Surface mother = reference::make_cell(
-        shape, topology, kRadius, reference::random_rotation(random), Vec3(100, -50, 30));
+        shape, topology, kMotherRadius, reference::random_rotation(random), Vec3(100, -50, 30));
     const Vec3 normal = random.unit_vector();
     const std::clock_t start = std::clock();
     const Split split = split_cell(topology, mother.node, normal, 0, random.uniform());
@@ -251,8 +251,8 @@ TEST(SplitCell, WorksOnEveryIcosphereAndLosesLessOnFinerOnes) {
 }
 
 TEST(SplitCell, RimNodesOfBothDaughtersCoincideOnTheRim) {
-  const geometry::Surface mother = reference::make_cell(reference::cell_shapes()[3], icosphere,
-                                                        kRadius, Mat3::Identity(), Vec3(9, 8, 7));
+  const geometry::Surface mother = reference::make_cell(
+      reference::cell_shapes()[3], icosphere, kMotherRadius, Mat3::Identity(), Vec3(9, 8, 7));
   const Vec3 normal = Vec3(1, 2, 2) / 3;
   const auto plane = geometry::find_halving_plane(mother.node, mother.triangle, normal);
   ASSERT_TRUE(plane);
@@ -287,7 +287,8 @@ double sharpest(const geometry::Topology& topology, const Split& split) {
 /// A lens halved across its edge at 35 degrees: one side of the rim is a wedge.
 std::vector<Vec3> make_lens(const geometry::Topology& topology) {
   std::vector<Vec3> node;
-  for (const Vec3& x : topology.rest) node.push_back(kRadius * Vec3(x.x(), x.y(), 0.5 * x.z()));
+  for (const Vec3& x : topology.rest)
+    node.push_back(kMotherRadius * Vec3(x.x(), x.y(), 0.5 * x.z()));
   return node;
 }
 
@@ -323,7 +324,7 @@ TEST(SplitCell, CoarseMeshesHaveNoFoldSharperThanTheCortexAllows) {
 
 TEST(SplitCell, SaysWhyNot) {
   geometry::Surface mother = reference::make_cell(reference::cell_shapes().back(), icosphere,
-                                                  kRadius, Mat3::Identity(), Vec3::Zero());
+                                                  kMotherRadius, Mat3::Identity(), Vec3::Zero());
   // A horseshoe halved in its own plane: two flat horseshoes, which no inner point sees as a whole.
   const Split flat = split_cell(icosphere, mother.node, Vec3::UnitZ());
   EXPECT_EQ(flat.failure, SplitFailure::kNotStarShaped);

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "tests/fuzz/targets.hpp"
+#include "tests/paths.hpp"
 
 namespace acinus::fuzz {
 
@@ -29,7 +30,7 @@ std::vector<std::string> make_corpus(const std::string& target, const std::strin
   fs::create_directories(folder);
   find_target(target).write_seeds(folder);
   std::vector<std::string> corpus = read_folder(folder);
-  for (std::string& kept : read_folder(ACINUS_SOURCE_DIR "/tests/fuzz/corpus/" + target))
+  for (std::string& kept : read_folder(test::source_path("tests/fuzz/corpus/" + target)))
     corpus.push_back(std::move(kept));
   return corpus;
 }

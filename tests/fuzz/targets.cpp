@@ -23,6 +23,7 @@
 #include "tests/imaging/hdf5_dataset.hpp"
 #include "tests/imaging/images.hpp"
 #include "tests/io/sample.hpp"
+#include "tests/paths.hpp"
 
 namespace acinus::fuzz {
 namespace {
@@ -44,7 +45,7 @@ void read_scene(const std::string& path) {
   if (again.hash != scene.hash) throw std::logic_error("the resolved scene is another one");
 }
 void write_scenes(const std::string& folder) {
-  copy_all(ACINUS_SOURCE_DIR "/runs/scenes", ".json", folder);
+  copy_all(test::source_path("runs/scenes"), ".json", folder);
 }
 
 /// Check of an accepted file: acinus must be able to go on with the result.
@@ -129,7 +130,7 @@ void write_hdf5_image(const std::string& folder) {
                                                 .step = {1, 0.5, 0.5},
                                                 .chunk = {2, 5, 6}});
 }
-void write_vtk(const std::string& folder) { copy_all(ACINUS_TEST_DATA "/files", ".vtk", folder); }
+void write_vtk(const std::string& folder) { copy_all(test::data_path("files"), ".vtk", folder); }
 
 io::CheckpointData make_state() {
   io::CheckpointData data;
@@ -173,7 +174,7 @@ void read_study(const std::string& path) {
   must(!runs::read_study(path).runs.empty(), "a study without runs");
 }
 void write_studies(const std::string& folder) {
-  copy_all(ACINUS_SOURCE_DIR "/runs/studies", ".json", folder);
+  copy_all(test::source_path("runs/studies"), ".json", folder);
 }
 
 /// A fresh folder beside a file that holds it under another name.

@@ -19,8 +19,8 @@
 namespace acinus::geometry {
 namespace {
 
-/// A box, outward; two triangles a side, those at low x the fifth.
-Surface box(const Vec3& low, const Vec3& size) {
+/// A body, outward; two triangles a side, those at low x the fifth.
+Surface body(const Vec3& low, const Vec3& size) {
   Surface s = make_box(size);
   for (Vec3& x : s.node) x += low;
   return s;
@@ -31,11 +31,11 @@ constexpr double kVolume = 1000;
 
 /// Two cells of 1000 um^3 that share a wall, an edge, a corner, or half a wall.
 std::vector<std::vector<Surface>> touching() {
-  const Surface a = box(Vec3::Zero(), kSize);
-  return {{a, box({10, 0, 0}, kSize)},
-          {a, box({10, 10, 0}, kSize)},
-          {a, box({10, 10, 10}, kSize)},
-          {a, box({0, -10, 0}, kSize), box({-10, 0, 0}, kSize), box({-10, -10, 0}, kSize)}};
+  const Surface a = body(Vec3::Zero(), kSize);
+  return {{a, body({10, 0, 0}, kSize)},
+          {a, body({10, 10, 0}, kSize)},
+          {a, body({10, 10, 10}, kSize)},
+          {a, body({0, -10, 0}, kSize), body({-10, 0, 0}, kSize), body({-10, -10, 0}, kSize)}};
 }
 
 std::string facets(const Surface& s) {
@@ -126,10 +126,6 @@ void expect_cells(const std::string& path, std::size_t n) {
   }
 }
 
-std::string refusal(const std::string& path) {
-  return message_of([&] { read_closed_surfaces(path, 1); });
-}
-
 TEST(Bodies, ThatTouchComeApartInEveryFormat) {
   const TempFolder folder;
   for (const std::vector<Surface>& all : touching()) {
@@ -156,7 +152,7 @@ TEST(Bodies, ThatAllPointInwardComeApartAsWell) {
 
 TEST(Bodies, OfSeveralPatchesAreOne) {
   const TempFolder folder;
-  const Surface a = box(Vec3::Zero(), kSize);
+  const Surface a = body(Vec3::Zero(), kSize);
   std::string patches, groups = obj({a}, "");
   for (std::size_t k = 0; k < 12; k += 2) {  // a solid a side, as meshers of flows write it
     Surface side = a;
@@ -172,7 +168,7 @@ TEST(Bodies, OfSeveralPatchesAreOne) {
 
 TEST(Bodies, ThatShareWallsWithoutTwinsAreToldWhatIsNeeded) {
   const TempFolder folder;
-  Surface a = box(Vec3::Zero(), kSize), b = box({10, 0, 0}, kSize);
+  Surface a = body(Vec3::Zero(), kSize), b = body({10, 0, 0}, kSize);
   b.triangle.erase(b.triangle.begin() + 8, b.triangle.begin() + 10);  // the wall, once
   const std::string message = refusal(folder.write("a.obj", obj({a, b}, "g")));
   EXPECT_CONTAINS(message, "non-manifold edges");
@@ -181,7 +177,7 @@ TEST(Bodies, ThatShareWallsWithoutTwinsAreToldWhatIsNeeded) {
 
 TEST(Bodies, InsideOthersAreFound) {
   const TempFolder folder;
-  const Surface outer = box(Vec3::Zero(), kSize), inner = box({3, 3, 3}, {4, 4, 4});
+  const Surface outer = body(Vec3::Zero(), kSize), inner = body({3, 3, 3}, {4, 4, 4});
   Surface cavity = inner;
   for (auto& t : cavity.triangle) std::swap(t[1], t[2]);
   EXPECT_CONTAINS(refusal(folder.write("a.stl", solid({outer}) + solid({cavity}))),
@@ -193,20 +189,20 @@ TEST(Bodies, InsideOthersAreFound) {
   const Nested n = find_nested(two);
   EXPECT_EQ(n.inner, 0);
   EXPECT_EQ(n.outer, 1);
-  // In the box of the other, not inside it.
-  Surface ring = box(Vec3::Zero(), {10, 10, 1});
+  // In the body of the other, not inside it.
+  Surface ring = body(Vec3::Zero(), {10, 10, 1});
   ring.node[7] += Vec3(0, 0, 9);
-  EXPECT_EQ(find_nested({ring, box({1, 1, 3}, {1, 1, 1})}).inner, -1);
+  EXPECT_EQ(find_nested({ring, body({1, 1, 3}, {1, 1, 1})}).inner, -1);
 }
 
 TEST(Bodies, OfTextWithCapitalsOrAByteOrderMark) {
   const TempFolder folder;
-  const std::string mark = "\xef\xbb\xbf", text = solid({box(Vec3::Zero(), kSize)});
+  const std::string mark = "\xef\xbb\xbf", text = solid({body(Vec3::Zero(), kSize)});
   std::string capitals = text;
   for (char& c : capitals) c = static_cast<char>(std::toupper(c));
   expect_cells(folder.write("a.stl", capitals), 1);
   expect_cells(folder.write("b.stl", mark + text), 1);
-  const std::vector<Surface> one{box(Vec3::Zero(), kSize)};
+  const std::vector<Surface> one{body(Vec3::Zero(), kSize)};
   expect_cells(folder.write("a.obj", mark + obj(one, "o")), 1);
   expect_cells(folder.write("a.ply", mark + ply_soup(one)), 1);
   EXPECT_CONTAINS(refusal(folder.write("c.stl", std::string("\xff\xfes\0o\0", 6))), "UTF-16");
@@ -230,22 +226,22 @@ TEST(ReadSurface, IsLinearInTheFacesOfTextFiles) {
 
 TEST(ReadSurface, RefusesNumbersThatCannotBePlaces) {
   const TempFolder folder;
-  std::string text = obj({box(Vec3::Zero(), kSize)}, "");
+  std::string text = obj({body(Vec3::Zero(), kSize)}, "");
   EXPECT_CONTAINS(refusal(folder.write("a.obj", "v 1e308 0 0\n" + text)), "a.obj:1: coordinate 1");
-  text = solid({box({5e9, 0, 0}, kSize)});
+  text = solid({body({5e9, 0, 0}, kSize)});
   EXPECT_CONTAINS(refusal(folder.write("a.stl", text)), "coordinates may be up to 1000000000 um");
   EXPECT_CONTAINS(refusal(folder.write("a.ply",
                                        "ply\nformat ascii 1.0\nelement x 9000000000000000\n"
                                        "end_header\n")),
                   "without properties");
   EXPECT_CONTAINS(
-      refusal(folder.write("b.ply", ply_soup({box(Vec3::Zero(), kSize)}) + "3 1 2 3\n")),
+      refusal(folder.write("b.ply", ply_soup({body(Vec3::Zero(), kSize)}) + "3 1 2 3\n")),
       "goes on behind all the elements");
 }
 
 TEST(ReadSurface, TellsAnObjThatWasCutByItsLastNodes) {
   const TempFolder folder;
-  const std::string text = obj({box(Vec3::Zero(), kSize)}, "");
+  const std::string text = obj({body(Vec3::Zero(), kSize)}, "");
   EXPECT_CONTAINS(refusal(folder.write("a.obj", text + "v 1 2 3\nv 4 5 6\n")),
                   "nodes 9 to 10, the last of the file, are in no face");
   expect_cells(folder.write("c.obj", text + "v 1 2 3\nv 4 5 6\nl 9 10\n"), 1);

@@ -23,7 +23,7 @@ TEST(CheckClosed, TurnsAnInwardSurfaceOutward) {
 TEST(CheckClosed, NamesTheFirstOpenEdge) {
   Surface box = make_box(Vec3(1, 2, 3));
   box.triangle.erase(box.triangle.begin() + 1);  // nodes 1, 2, 3
-  const std::string text = message_of([&] { check_closed(box, "walls.obj: body 4"); });
+  const std::string text = test::message_of([&] { check_closed(box, "walls.obj: body 4"); });
   EXPECT_CONTAINS(text, "walls.obj: body 4: not a closed surface: 3 open edges");
   EXPECT_CONTAINS(text, "0 non-manifold edges");
   EXPECT_CONTAINS(text, "edge 1-2 from (1, 0, 0) to (0, 2, 0) um");
@@ -34,7 +34,7 @@ TEST(CheckClosed, CountsNonManifoldEdges) {
   Surface box = make_box(Vec3(1, 1, 1));
   box.node.push_back(Vec3(0, 0, -1));
   box.triangle.push_back({0, 1, 8});
-  const std::string text = message_of([&] { check_closed(box, "b"); });
+  const std::string text = test::message_of([&] { check_closed(box, "b"); });
   EXPECT_CONTAINS(text, "2 open edges");
   EXPECT_CONTAINS(text, "1 non-manifold edges");
   EXPECT_CONTAINS(text, "first edge 0-1");
@@ -43,7 +43,7 @@ TEST(CheckClosed, CountsNonManifoldEdges) {
 TEST(CheckClosed, RefusesMixedOrientation) {
   Surface box = make_box(Vec3(1, 1, 1));
   std::swap(box.triangle[5][0], box.triangle[5][1]);
-  const std::string text = message_of([&] { check_closed(box, "b"); });
+  const std::string text = test::message_of([&] { check_closed(box, "b"); });
   EXPECT_CONTAINS(text, "3 edges are run twice in the same direction");
 }
 
@@ -55,20 +55,22 @@ TEST(CheckClosed, RefusesSheetsThatTouchInANode) {
     for (int& node : t) node = node == 0 ? 0 : node + 7;
     box.triangle.push_back(t);
   }
-  EXPECT_CONTAINS(message_of([&] { check_closed(box, "b"); }),
+  EXPECT_CONTAINS(test::message_of([&] { check_closed(box, "b"); }),
                   "node 0 at (0, 0, 0) um joins two sheets");
 }
 
 TEST(CheckClosed, RefusesBadIndicesAndFlatBodies) {
   Surface box = make_box(Vec3(1, 1, 1));
   box.triangle[2][1] = 8;
-  EXPECT_CONTAINS(message_of([&] { check_closed(box, "b"); }), "triangle 2 uses nodes 4, 8, 6");
+  EXPECT_CONTAINS(test::message_of([&] { check_closed(box, "b"); }),
+                  "triangle 2 uses nodes 4, 8, 6");
   box.triangle[2][1] = 4;
-  EXPECT_CONTAINS(message_of([&] { check_closed(box, "b"); }), "triangle 2 uses a node twice");
+  EXPECT_CONTAINS(test::message_of([&] { check_closed(box, "b"); }),
+                  "triangle 2 uses a node twice");
   Surface flat = make_box(Vec3(1, 1, 0));
-  EXPECT_CONTAINS(message_of([&] { check_closed(flat, "b"); }), "encloses a volume of");
+  EXPECT_CONTAINS(test::message_of([&] { check_closed(flat, "b"); }), "encloses a volume of");
   Surface none;
-  EXPECT_CONTAINS(message_of([&] { check_closed(none, "b"); }), "no triangles");
+  EXPECT_CONTAINS(test::message_of([&] { check_closed(none, "b"); }), "no triangles");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "geometry/readers/read_network.hpp"
 #include "tests/geometry/temp_folder.hpp"
+#include "tests/paths.hpp"
 
 namespace acinus::geometry {
 namespace {
@@ -73,7 +74,7 @@ TEST(TransformNetwork, ScalesThenCentresThenShifts) {
   EXPECT_NEAR(out.node[2].y(), 7, 1e-12);
   EXPECT_NEAR(out.radius[3][1], 3, 1e-12);
   transform.scale = 0;
-  EXPECT_CONTAINS(message_of([&] { transform_network(out, transform); }), "scale is 0");
+  EXPECT_CONTAINS(test::message_of([&] { transform_network(out, transform); }), "scale is 0");
 }
 
 TEST(CropNetwork, KeepsWholeSegmentsThatEnterTheBox) {
@@ -89,7 +90,7 @@ TEST(CropNetwork, KeepsWholeSegmentsThatEnterTheBox) {
             0u);  // beside it
   EXPECT_EQ(crop_network(chain, {Vec3(-9, 0, 0), Vec3(99, 0, 0)}).segment.size(),
             10u);  // faces belong to it
-  EXPECT_CONTAINS(message_of([&] {
+  EXPECT_CONTAINS(test::message_of([&] {
                     crop_network(chain, {Vec3(1, 0, 0), Vec3(0, 1, 1)});
                   }),
                   "must not exceed");
@@ -205,15 +206,14 @@ void expect_little_change(const std::string& path) {
 
 TEST(ResampleNetwork, TracedNetworksChangeLittle) {
   for (const char* name : {"capillaries.vtk", "artery.vtk"})
-    expect_little_change(std::string(ACINUS_TEST_DATA "/files/") + name);
+    expect_little_change(test::data_path("files/") + name);
 }
 
-#ifdef ACINUS_REAL_DATA
 TEST(ResampleNetwork, RealNetworksChangeLittle) {
+  if (!test::has_real_data()) GTEST_SKIP();
   for (const char* name : {"test_smaller_vasculature.vtk", "penetrating_artery_standardized.vtk"})
-    expect_little_change(std::string(ACINUS_REAL_DATA "/vascpy/") + name);
+    expect_little_change(test::real_path("vascpy/") + name);
 }
-#endif
 
 }  // namespace
 }  // namespace acinus::geometry

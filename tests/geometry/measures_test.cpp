@@ -6,11 +6,12 @@
 #include <random>
 
 #include "tests/geometry/shapes.hpp"
+#include "tests/reference/sample.hpp"
 
 namespace acinus::geometry {
 namespace {
 
-constexpr double kEps = 2.3e-16;
+using reference::kEps;
 
 TEST(Measures, BoxHasItsHandValues) {
   Surface box = make_box(Vec3(1, 2, 3));

@@ -9,18 +9,19 @@
 #include <random>
 
 #include "tests/geometry/temp_folder.hpp"
+#include "tests/paths.hpp"
 
 namespace acinus::geometry {
 namespace {
 
-const std::string kData = ACINUS_TEST_DATA "/files/";
+const std::string kData = test::data_path("files/");
 const std::string kHeader = "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET POLYDATA\n";
 const std::string kPoints = "POINTS 4 float\n0 0 0 1 0 0\n2 0 0 2 1 0\n";  // lines 5 to 7
 const std::string kLines = "LINES 2 7\n3 0 1 2\n2 2 3\n";                  // lines 8 to 10
 const std::string kCellRadius = "CELL_DATA 2\nSCALARS radius float 1\nLOOKUP_TABLE default\n2 3\n";
 
-std::string refusal(const std::string& path) {
-  return message_of([&] { read_network(path); });
+std::string network_refusal(const std::string& path) {
+  return test::message_of([&] { read_network(path); });
 }
 
 /// `path`.vtk holds what `path`.csv holds as text.
@@ -82,16 +83,16 @@ TEST(ReadNetwork, ArteryHasDiametersAtItsNodes) {
   expect_artery(kData + "artery.vtk", {420, 10.5, 14.1, 10.5, 430.2});
 }
 
-#ifdef ACINUS_REAL_DATA
 TEST(ReadNetwork, SmallVasculatureEqualsItsDecodedCopy) {
-  expect_equal_to_decoded_copy(ACINUS_REAL_DATA "/vascpy/test_smaller_vasculature", 912, 897);
+  if (!test::has_real_data()) GTEST_SKIP();
+  expect_equal_to_decoded_copy(test::real_path("vascpy/test_smaller_vasculature"), 912, 897);
 }
 
 TEST(ReadNetwork, PenetratingArteryHasDiametersAtItsNodes) {
-  expect_artery(ACINUS_REAL_DATA "/vascpy/penetrating_artery_standardized.vtk",
+  if (!test::has_real_data()) GTEST_SKIP();
+  expect_artery(test::real_path("vascpy/penetrating_artery_standardized.vtk"),
                 {1274, 10.5, 14.1, 22.772800446 / 2, 1255});
 }
-#endif
 
 TEST(ReadNetwork, PolylinesAreSplitAndRadiiMayStandAnywhere) {
   const TempFolder folder;
@@ -145,12 +146,12 @@ TEST(ReadNetwork, BinaryIsBigEndianAndErrorsGiveTheByte) {
   EXPECT_EQ(network.node[2], Vec3(1, 2, 0));
   EXPECT_EQ(network.radius[1], (std::array<double, 2>{2, 3}));
   const std::string good = binary_file(3, 2);
-  EXPECT_CONTAINS(refusal(folder.write("n.vtk", binary_file(std::nanf(""), 2))),
+  EXPECT_CONTAINS(network_refusal(folder.write("n.vtk", binary_file(std::nanf(""), 2))),
                   fmt::format("n.vtk: byte {}: node 2 has \"radius\" nan", good.size() - 5));
-  EXPECT_CONTAINS(refusal(folder.write("i.vtk", binary_file(3, 70000))),
+  EXPECT_CONTAINS(network_refusal(folder.write("i.vtk", binary_file(3, 70000))),
                   fmt::format("byte {}: line 1 uses node 70000, but the file has 3 points",
                               good.find("\nMETADATA") - 12));
-  EXPECT_CONTAINS(refusal(folder.write("t.vtk", good.substr(0, 100))), "byte");
+  EXPECT_CONTAINS(network_refusal(folder.write("t.vtk", good.substr(0, 100))), "byte");
   for (std::size_t size = 0; size + 1 < good.size();
        ++size) {  // cut anywhere: an Error, never a crash
     EXPECT_THROW(read_network(folder.write("t.vtk", good.substr(0, size))), Error) << size;
@@ -169,7 +170,9 @@ TEST(ReadNetwork, SwcKeepsNodesAndTapers) {
   EXPECT_EQ(network.segment, segment);
   EXPECT_EQ(network.radius, radius);
   EXPECT_DOUBLE_EQ(total_length(network), 10);
-  const auto swc = [&](const std::string& text) { return refusal(folder.write("b.swc", text)); };
+  const auto swc = [&](const std::string& text) {
+    return network_refusal(folder.write("b.swc", text));
+  };
   EXPECT_CONTAINS(swc("1 2 0 0 0 1 -1\n2 2 1 0 0 1 5\n"),
                   "b.swc:2: node 2 has the parent 5, which is not in the file");
   EXPECT_CONTAINS(swc("1 2 0 0 0 1 1\n"), "the node itself");
@@ -185,12 +188,14 @@ TEST(ReadNetwork, SwcKeepsNodesAndTapers) {
 
 TEST(ReadNetwork, BadTextFilesAreRefusedWithPlaceAndRemedy) {
   const TempFolder folder;
-  const auto vtk = [&](const std::string& text) { return refusal(folder.write("a.vtk", text)); };
+  const auto vtk = [&](const std::string& text) {
+    return network_refusal(folder.write("a.vtk", text));
+  };
   const std::string mesh = kHeader + kPoints + kLines;
-  EXPECT_CONTAINS(refusal(folder.path() + "/none.vtk"), "none.vtk: no such file");
-  EXPECT_CONTAINS(refusal(folder.path()), "is a folder");
-  EXPECT_CONTAINS(refusal("/dev/zero"), "a device");
-  EXPECT_CONTAINS(refusal(folder.write("a.txt", "1 2 3")),
+  EXPECT_CONTAINS(network_refusal(folder.path() + "/none.vtk"), "none.vtk: no such file");
+  EXPECT_CONTAINS(network_refusal(folder.path()), "is a folder");
+  EXPECT_CONTAINS(network_refusal("/dev/zero"), "a device");
+  EXPECT_CONTAINS(network_refusal(folder.write("a.txt", "1 2 3")),
                   "(.vtk), SWC (.swc) and VMV (.vmv), not \".txt\"");
   EXPECT_CONTAINS(vtk(""), "empty");
   EXPECT_CONTAINS(vtk("hello\n"), "a.vtk:1: the first line is \"hello\"");
@@ -275,13 +280,14 @@ TEST(ReadNetwork, RadiiOfVmtkAndMicrovesselChasteAreKnown) {
   const std::string both = point +
                            "inner_radius 1 4 float\n1 2 3 4\nouter_radius 1 4 float\n"
                            "5 6 7 8\n";
-  EXPECT_CONTAINS(message_of([&] { first(both); }), "--vessel-radius-array");
+  EXPECT_CONTAINS(test::message_of([&] { first(both); }), "--vessel-radius-array");
   EXPECT_EQ(first(both, "Inner_Radius"), tapered);
   EXPECT_EQ(
       first(point + "a 1 4 float\n9 9 9 9\nOuterDiameter 1 4 float\n2 4 6 8\n", "OuterDiameter"),
       tapered);
-  EXPECT_CONTAINS(message_of([&] { first(both, "width"); }), "no array \"width\". Arrays found");
-  EXPECT_CONTAINS(message_of([&] {
+  EXPECT_CONTAINS(test::message_of([&] { first(both, "width"); }),
+                  "no array \"width\". Arrays found");
+  EXPECT_CONTAINS(test::message_of([&] {
                     read_network(folder.write("a.swc", "1 1 0 0 0 1 -1\n2 1 5 0 0 1 1\n"), "r");
                   }),
                   "for VTK files only");
@@ -295,29 +301,30 @@ TEST(ReadNetwork, ArraysOfRadiiThatContradictAreNotChosenBetween) {
                        diameters);
   };
   EXPECT_EQ(read_network(folder.write("a.vtk", text("2 4 6 8\n"))).radius[0][1], 2);
-  EXPECT_CONTAINS(refusal(folder.write("a.vtk", text("2 4 6 6\n"))),
+  EXPECT_CONTAINS(network_refusal(folder.write("a.vtk", text("2 4 6 6\n"))),
                   "node 3 has the radius 4 by the array \"radius\" and 3 by \"diameter\"");
 }
 
 TEST(ReadNetwork, AllRadiiThatAreNoneAreToldAtOnce) {
   const TempFolder folder;
-  const std::string vtk = refusal(folder.write(
+  const std::string vtk = network_refusal(folder.write(
       "a.vtk", with_arrays("POINT_DATA 4\nSCALARS radius float\nLOOKUP_TABLE default\n0 1 nan -2"
                            "\n")));
   EXPECT_CONTAINS(vtk, "node 0 has \"radius\" 0");
   EXPECT_CONTAINS(vtk, "So for 2 more: node 2 (nan), node 3 (-2).");
-  const std::string swc = refusal(
+  const std::string swc = network_refusal(
       folder.write("a.swc", "1 1 0 0 0 0 -1\n2 1 5 0 0 1 1\n3 1 9 0 0 0 2\n4 1 12 0 0 -1 3\n"));
   EXPECT_CONTAINS(swc, "a.swc:1: node 1 has the radius 0");
   EXPECT_CONTAINS(swc, "So for 2 more: node 3 (0), node 4 (-1).");
-  EXPECT_CONTAINS(refusal(folder.write("b.swc", "1 1 0 0 0 1 -1\n2 1 5 0 0 1 9\n3 1 9 0 0 1 9\n")),
-                  "node 2 has the parent 9, which is not in the file. So for 1 more.");
-  EXPECT_CONTAINS(refusal(folder.write("c.swc", "1 1 0 0 0 1 -1\n2 1 5 0 0 1e308 1\n")),
+  EXPECT_CONTAINS(
+      network_refusal(folder.write("b.swc", "1 1 0 0 0 1 -1\n2 1 5 0 0 1 9\n3 1 9 0 0 1 9\n")),
+      "node 2 has the parent 9, which is not in the file. So for 1 more.");
+  EXPECT_CONTAINS(network_refusal(folder.write("c.swc", "1 1 0 0 0 1 -1\n2 1 5 0 0 1e308 1\n")),
                   "node 2 has the radius 1e+308");
-  const std::string vmv =
-      refusal(folder.write("a.vmv",
-                           "$VERT_LIST_BEGIN\n1 0 0 0 0\n2 5 0 0 1\n3 9 0 0 0\n$VERT_LIST_END\n"
-                           "$STRANDS_LIST_BEGIN\n1 1 2 3\n$STRANDS_LIST_END\n"));
+  const std::string vmv = network_refusal(
+      folder.write("a.vmv",
+                   "$VERT_LIST_BEGIN\n1 0 0 0 0\n2 5 0 0 1\n3 9 0 0 0\n$VERT_LIST_END\n"
+                   "$STRANDS_LIST_BEGIN\n1 1 2 3\n$STRANDS_LIST_END\n"));
   EXPECT_CONTAINS(vmv, "So for 1 more: node 3 (0).");
 }
 
@@ -326,20 +333,21 @@ TEST(ReadNetwork, StatementsOfHeadersAreFollowedOrRefused) {
   const std::string mark = "\xef\xbb\xbf", swc = "1 1 0 0 0 1 -1\n2 1 5 0 0 1 1\n";
   EXPECT_EQ(read_network(folder.write("a.swc", mark + "# SCALE 1.0 1.0 1.0\n" + swc)).node.size(),
             2u);
-  EXPECT_CONTAINS(refusal(folder.write("a.swc", "# SCALE 0.5 0.5 1\n" + swc)),
+  EXPECT_CONTAINS(network_refusal(folder.write("a.swc", "# SCALE 0.5 0.5 1\n" + swc)),
                   "a.swc:1: the header says \"# SCALE 0.5 0.5 1\"");
-  EXPECT_CONTAINS(refusal(folder.write("a.swc", swc + "3 1 9 0 0 1 2")),
+  EXPECT_CONTAINS(network_refusal(folder.write("a.swc", swc + "3 1 9 0 0 1 2")),
                   "the last line has no end");
-  EXPECT_CONTAINS(refusal(folder.write("a.swc", swc + "# 1 9 0 0 1 2\n")),
+  EXPECT_CONTAINS(network_refusal(folder.write("a.swc", swc + "# 1 9 0 0 1 2\n")),
                   "a comment holds the numbers of a node");
-  EXPECT_CONTAINS(refusal(folder.write("b.swc", std::string("\xfe\xff\0#", 4) + swc)), "UTF-16");
+  EXPECT_CONTAINS(network_refusal(folder.write("b.swc", std::string("\xfe\xff\0#", 4) + swc)),
+                  "UTF-16");
   const std::string vmv =
       "$VERT_LIST_BEGIN\n1 0 0 0 2\n2 5 0 0 1\n$VERT_LIST_END\n"
       "$STRANDS_LIST_BEGIN\n1 1 2\n$STRANDS_LIST_END\n";
   EXPECT_EQ(read_network(folder.write("a.vmv", mark + "$NUM_VERTS 2\n" + vmv)).node.size(), 2u);
-  EXPECT_CONTAINS(refusal(folder.write("a.vmv", "$NUM_VERTS 3\n" + vmv)),
+  EXPECT_CONTAINS(network_refusal(folder.write("a.vmv", "$NUM_VERTS 3\n" + vmv)),
                   "$NUM_VERTS says 3, but the list has 2");
-  EXPECT_CONTAINS(refusal(folder.write("a.vmv", "$NUM_STRANDS 2\n" + vmv)),
+  EXPECT_CONTAINS(network_refusal(folder.write("a.vmv", "$NUM_STRANDS 2\n" + vmv)),
                   "$NUM_STRANDS says 2, but the list has 1");
   EXPECT_EQ(read_network(folder.write("a.vtk", mark + kHeader + kPoints + kLines + kCellRadius))
                 .node.size(),
@@ -349,7 +357,7 @@ TEST(ReadNetwork, StatementsOfHeadersAreFollowedOrRefused) {
 TEST(ReadNetwork, SectionsInAnotherOrderAreTold) {
   const TempFolder folder;
   const auto vtk = [&](const std::string& text) {
-    return refusal(folder.write("a.vtk", kHeader + text));
+    return network_refusal(folder.write("a.vtk", kHeader + text));
   };
   EXPECT_CONTAINS(vtk("POINT_DATA 4\n" + kPoints + kLines), "a.vtk:5: POINT_DATA stands before");
   EXPECT_CONTAINS(vtk(kPoints + kLines + "SCALARS radius float\nLOOKUP_TABLE default\n1 1 1 1\n"),

@@ -11,6 +11,7 @@
 #include "geometry/triangulate.hpp"
 #include "tests/geometry/shapes.hpp"
 #include "tests/geometry/temp_folder.hpp"
+#include "tests/paths.hpp"
 
 namespace acinus::geometry {
 namespace {
@@ -23,10 +24,6 @@ std::string points_text(const Surface& surface) {
 
 std::string vtk_header(const std::string& mode, const std::string& dataset) {
   return "# vtk DataFile Version 3.0\nany title\n" + mode + "\nDATASET " + dataset + "\n";
-}
-
-std::string refusal(const std::string& path) {
-  return message_of([&] { read_closed_surfaces(path, 1); });
 }
 
 /// 16 bodies with the volumes and areas that the file gives beside them.
@@ -64,28 +61,28 @@ void expect_second_body_refused(const std::string& path) {
   std::vector<Surface> bodies = read_surfaces(path, 1e6);
   ASSERT_EQ(bodies.size(), 2u);
   EXPECT_NO_THROW(check_closed(bodies[0], "body 0"));
-  const std::string text = message_of([&] { read_closed_surfaces(path, 1e6); });
+  const std::string text = test::message_of([&] { read_closed_surfaces(path, 1e6); });
   std::printf("%s\n", text.c_str());
   EXPECT_CONTAINS(text, std::filesystem::path(path).filename().string() + ": body 1: ");
 }
 
 TEST(ReadSurface, AggregateHasTheVolumesAndAreasOfItsFile) {
-  expect_measures_of_file(ACINUS_TEST_DATA "/files/aggregate.vtk");
+  expect_measures_of_file(test::data_path("files/aggregate.vtk"));
 }
 
 TEST(ReadSurface, ABodyWithAHoleIsRefused) {
-  expect_second_body_refused(ACINUS_TEST_DATA "/files/open_body.vtk");
+  expect_second_body_refused(test::data_path("files/open_body.vtk"));
 }
 
-#ifdef ACINUS_REAL_DATA
 TEST(ReadSurface, EmbryoHasTheVolumesAndAreasOfItsFile) {
-  expect_measures_of_file(ACINUS_REAL_DATA "/simucell3d/embryo_5.vtk");
+  if (!test::has_real_data()) GTEST_SKIP();
+  expect_measures_of_file(test::real_path("simucell3d/embryo_5.vtk"));
 }
 
 TEST(ReadSurface, YoungLaplaceBodyOneIsRefused) {
-  expect_second_body_refused(ACINUS_REAL_DATA "/simucell3d/young_laplace_test_geom.vtk");
+  if (!test::has_real_data()) GTEST_SKIP();
+  expect_second_body_refused(test::real_path("simucell3d/young_laplace_test_geom.vtk"));
 }
-#endif
 
 TEST(ReadSurface, PolydataQuadsBecomeTriangles) {
   const TempFolder folder;
@@ -279,7 +276,7 @@ TEST(ReadSurface, BadFilesAreRefusedWithPlaceAndRemedy) {
   const std::string poly = vtk_header("ASCII", "POLYDATA") + points_text(make_box(Vec3(1, 1, 1)));
   EXPECT_CONTAINS(refusal(folder.write("a.vtk", poly + "TRIANGLE_STRIPS 1 5\n4 0 1 2 3\n")),
                   "TRIANGLE_STRIPS");
-  EXPECT_CONTAINS(message_of([&] { read_surfaces(folder.write("u.vtk", poly), 0); }),
+  EXPECT_CONTAINS(test::message_of([&] { read_surfaces(folder.write("u.vtk", poly), 0); }),
                   "must be above 0");
 }
 

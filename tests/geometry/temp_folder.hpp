@@ -1,5 +1,5 @@
 #pragma once
-/// Helpers of the mesh tests: small files in a folder of their own, and the text of an Error.
+/// Helpers of the mesh tests: small files in a folder of their own.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,7 +10,8 @@
 #include <fstream>
 #include <string>
 
-#include "core/error.hpp"
+#include "geometry/readers/read_surface.hpp"
+#include "tests/messages.hpp"
 
 namespace acinus::geometry {
 
@@ -38,23 +39,10 @@ class TempFolder {
   std::filesystem::path path_;
 };
 
-/// The message of the Error that `call` throws; checks its exit code. "" when nothing is thrown.
-template <class Call>
-std::string message_of(const Call& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), Exit::kBadInput);
-    return error.what();
-  }
-  ADD_FAILURE() << "no Error was thrown";
-  return "";
+/// The message with which a file of closed surfaces is refused.
+inline std::string refusal(const std::string& path) {
+  return test::message_of([&] { read_closed_surfaces(path, 1); });
 }
-
-inline bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-#define EXPECT_CONTAINS(text, part) EXPECT_TRUE(contains(text, part)) << "message: " << (text)
 
 /// Big-endian bytes of a 4-byte value.
 template <class Value>

@@ -109,7 +109,7 @@ TEST(Icosphere, NeighboursAreCloseInMemory) {
 TEST(Icosphere, IsMadeOnceAndOnlyInKnownSizes) {
   EXPECT_EQ(&shared_icosphere(162), &shared_icosphere(162));
   EXPECT_NE(&shared_icosphere(42), &shared_icosphere(162));
-  const std::string text = message_of([] { make_icosphere(100); });
+  const std::string text = test::message_of([] { make_icosphere(100); });
   EXPECT_CONTAINS(text, "100");
   EXPECT_CONTAINS(text, "12, 42, 92, 162, 252, 362, 642, 1442 and 2562");
 }
@@ -186,32 +186,32 @@ TEST(Topology, RingsAreSortedAndComplete) {
 TEST(Topology, RefusesWhatIsNotASphere) {
   Surface open = make_box(Vec3(1, 1, 1));
   open.triangle.pop_back();
-  EXPECT_CONTAINS(message_of([&] { make_topology(open); }), "3 open edges");
+  EXPECT_CONTAINS(test::message_of([&] { make_topology(open); }), "3 open edges");
 
   Surface inward = make_box(Vec3(1, 1, 1));
   for (auto& t : inward.triangle) std::swap(t[0], t[1]);
-  EXPECT_CONTAINS(message_of([&] { make_topology(inward); }), "inward");
+  EXPECT_CONTAINS(test::message_of([&] { make_topology(inward); }), "inward");
 
-  EXPECT_CONTAINS(message_of([] { make_topology(make_torus(8)); }), "1 handles");
+  EXPECT_CONTAINS(test::message_of([] { make_topology(make_torus(8)); }), "1 handles");
 
   Surface two = make_box(Vec3(1, 1, 1));
   const Surface other = make_box(Vec3(1, 1, 1));
   two.node.insert(two.node.end(), other.node.begin(), other.node.end());
   for (auto t : other.triangle) two.triangle.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
-  EXPECT_CONTAINS(message_of([&] { make_topology(two); }), "node 8 is not connected");
+  EXPECT_CONTAINS(test::message_of([&] { make_topology(two); }), "node 8 is not connected");
 
   Surface unused = make_box(Vec3(1, 1, 1));
   unused.node.push_back(Vec3(5, 5, 5));
-  EXPECT_CONTAINS(message_of([&] { make_topology(unused); }), "node 8 is not connected");
+  EXPECT_CONTAINS(test::message_of([&] { make_topology(unused); }), "node 8 is not connected");
 
   Surface flat = make_box(Vec3(1, 1, 1));
   flat.node[0] = Vec3(0.5, 0.5, 0);  // on the diagonal 1-2: triangle 0 collapses
-  EXPECT_CONTAINS(message_of([&] { make_topology(flat); }),
+  EXPECT_CONTAINS(test::message_of([&] { make_topology(flat); }),
                   "triangle 0 (nodes 0, 2, 1) has no area");
 
   Surface lost = make_box(Vec3(1, 1, 1));
   lost.node[3].y() = std::nan("");
-  EXPECT_CONTAINS(message_of([&] { make_topology(lost); }), "not finite");
+  EXPECT_CONTAINS(test::message_of([&] { make_topology(lost); }), "not finite");
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <string>
 
 #include "imaging/label_image.hpp"
+#include "imaging/read_image.hpp"
+#include "tests/geometry/temp_folder.hpp"
 
 namespace acinus::imaging {
 
@@ -54,6 +56,11 @@ inline std::string nifti(const LabelImage& image, std::int16_t units, float slop
   put(123, static_cast<char>(units));
   std::memcpy(&h[344], "n+1", 4);
   return h + image_bytes<std::uint16_t>(image);
+}
+
+/// The message with which an image is refused.
+inline std::string refusal(const std::string& path, const ReadImage& how = {}) {
+  return test::message_of([&] { read_image(path, how); });
 }
 
 }  // namespace acinus::imaging

@@ -10,8 +10,6 @@
 namespace acinus::imaging {
 namespace {
 
-using geometry::contains;
-using geometry::message_of;
 using geometry::TempFolder;
 
 std::string why(const ImportedTissue& t, Label label, std::size_t n_voxel = 0) {
@@ -74,13 +72,13 @@ TEST(ImportImage, TakesVesselsFromALabelOrAnotherImage) {
   EXPECT_CONTAINS(other.warnings[0], "voxels belong to a cell and to a vessel");
   o.vessels.clear();
   o.vessel_label = 5;
-  EXPECT_CONTAINS(message_of([&] { import_image(o); }), "no voxel is labelled 5");
+  EXPECT_CONTAINS(test::message_of([&] { import_image(o); }), "no voxel is labelled 5");
 }
 
 TEST(ImportImage, KeepsCellsAtTheBorderIfAsked) {
   const TempFolder folder;
   ImportOptions o = options_for(folder, balls({{1, {0, 20, 20}, 9}, {2, {60, 20, 20}, 9}}));
-  const std::string message = message_of([&] { import_image(o); });
+  const std::string message = test::message_of([&] { import_image(o); });
   EXPECT_CONTAINS(message, "none of its 2 labels can be kept");
   EXPECT_CONTAINS(message, "--border keep");
   o.keep_border = true;
@@ -94,7 +92,7 @@ TEST(ImportImage, TellsLabelsThatWereUsedTwice) {
     all.push_back(
         {static_cast<Label>(k % 3 + 1), Vec3(10 + 20 * (k / 2), k % 2 == 0 ? 10 : 30, 20), 6});
   ImportOptions o = options_for(folder, balls(all));
-  const std::string message = message_of([&] { import_image(o); });
+  const std::string message = test::message_of([&] { import_image(o); });
   EXPECT_CONTAINS(message, "3 of 3 labels are in several large pieces, label 1 first");
   EXPECT_CONTAINS(message, "its type counts to 255 only");
   EXPECT_CONTAINS(message, "--split");
@@ -107,7 +105,7 @@ TEST(ImportImage, TellsLabelsThatWereUsedTwice) {
 
 TEST(ImportImage, RefusesImagesWithoutCells) {
   const TempFolder folder;
-  EXPECT_CONTAINS(message_of([&] { import_image(options_for(folder, balls({}))); }),
+  EXPECT_CONTAINS(test::message_of([&] { import_image(options_for(folder, balls({}))); }),
                   "all voxels are 0, the background");
 }
 
@@ -121,7 +119,7 @@ LabelImage raised(const std::vector<LabelledBall>& all) {
 TEST(ImportImage, AsksAboutALabelThatEnclosesTheImage) {
   const TempFolder folder;
   ImportOptions o = options_for(folder, raised(kTwoBalls));
-  const std::string message = message_of([&] { import_image(o); });
+  const std::string message = test::message_of([&] { import_image(o); });
   EXPECT_CONTAINS(message, "label 1 fills 96 % of the image");
   EXPECT_CONTAINS(message, "--background 1");
   o.background = 1;
@@ -130,7 +128,8 @@ TEST(ImportImage, AsksAboutALabelThatEnclosesTheImage) {
   EXPECT_EQ(t.cell[0].label, 4u);
   EXPECT_NEAR(t.cell[0].volume, sphere_volume(8), 0.03 * sphere_volume(8));
   o.background = 7;
-  EXPECT_CONTAINS(message_of([&] { import_image(o); }), "--background 7: no voxel has this label");
+  EXPECT_CONTAINS(test::message_of([&] { import_image(o); }),
+                  "--background 7: no voxel has this label");
   o.background = 0;  // it is a cell, cut off by the border
   EXPECT_CONTAINS(why(import_image(o), 1), "cut off by the border");
 }

@@ -14,7 +14,6 @@
 namespace acinus::imaging {
 namespace {
 
-using geometry::contains;
 using geometry::TempFolder;
 
 std::string tags_of(const std::string& axes) {
@@ -45,16 +44,6 @@ std::vector<std::uint32_t> numbers(const std::string& axes, const std::vector<hs
     out.push_back(value);
   }
   return out;
-}
-
-std::string refusal(const std::string& path, const ReadImage& how = {}) {
-  try {
-    read_image(path, how);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no Error was thrown";
-  return "";
 }
 
 class ReadHdf5 : public testing::Test {

@@ -16,8 +16,6 @@
 namespace acinus::imaging {
 namespace {
 
-using geometry::contains;
-using geometry::message_of;
 using geometry::TempFolder;
 
 constexpr Voxel kSize{5, 4, 3};
@@ -32,10 +30,6 @@ void expect_image(const LabelImage& found, const LabelImage& wanted) {
   EXPECT_EQ(found.size, wanted.size);
   EXPECT_LT((found.voxel - wanted.voxel).norm(), 1e-6) << found.voxel.transpose();
   EXPECT_EQ(found.label, wanted.label);
-}
-
-std::string refusal(const std::string& path, const ReadImage& how = {}) {
-  return message_of([&] { read_image(path, how); });
 }
 
 TEST(ReadImage, GivesBackWhatWasWritten) {
@@ -221,7 +215,7 @@ TEST(TiffText, OfOmeSaysOrderAndSizes) {
   EXPECT_NEAR((t.step.cwiseProduct(t.unit) - Vec3(0.5, 0.25, 1.5)).norm(), 0, 1e-12);
   EXPECT_EQ(t.plane(3, 1), 1 + 2 * 3);           // channel 1 of time 0
   EXPECT_EQ(t.plane(3, 5), 1 + 2 * 3 + 14 * 2);  // channel 1 of time 2
-  EXPECT_CONTAINS(message_of([] {
+  EXPECT_CONTAINS(test::message_of([] {
                     read_tiff_text("a.tif", "<OME><Image><Pixels SizeZ=\"x\"/></Image></OME>");
                   }),
                   "says SizeZ = \"x\"");

@@ -18,8 +18,6 @@
 namespace acinus::imaging {
 namespace {
 
-using geometry::contains;
-using geometry::message_of;
 using geometry::TempFolder;
 
 LabelImage sample(const Voxel& size = {5, 4, 3}) {
@@ -36,7 +34,7 @@ class Statements : public testing::Test {
   }
   std::string refusal(const std::string& name, const std::string& bytes,
                       const ReadImage& how = {}) {
-    return message_of([&] { read(name, bytes, how); });
+    return test::message_of([&] { read(name, bytes, how); });
   }
   void expect_sample(const LabelImage& found, const LabelImage& wanted) {
     EXPECT_EQ(found.size, wanted.size);

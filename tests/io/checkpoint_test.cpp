@@ -11,6 +11,7 @@
 #include "io/disk.hpp"
 #include "io/hdf5.hpp"
 #include "tests/io/sample.hpp"
+#include "tests/messages.hpp"
 
 namespace acinus::io {
 namespace {
@@ -38,17 +39,6 @@ std::vector<std::uint64_t> bits_of(const std::vector<double>& value) {
   return bits;
 }
 
-std::string error_of(const std::function<void()>& action, Exit code) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), code) << error.what();
-    return error.what();
-  }
-  ADD_FAILURE() << "no error";
-  return "";
-}
-
 TEST(Checkpoint, RoundTripKeepsEveryBit) {
   const Folder folder("checkpoint_bits");
   const CheckpointData data = make_data(3.5);
@@ -69,34 +59,33 @@ TEST(Checkpoint, RoundTripKeepsEveryBit) {
 
 TEST(Checkpoint, NeverInventsAValue) {
   const CheckpointData data = make_data(1);
-  EXPECT_NE(error_of([&] { data.numbers("absent"); }, Exit::kFileError).find("has no \"absent\""),
-            std::string::npos);
-  EXPECT_NE(error_of([&] { data.integers("time"); }, Exit::kFileError)
-                .find("holds 64-bit floats, but signed"),
-            std::string::npos);
-  error_of([&] { data.text("time"); }, Exit::kFileError);
-  error_of([&] { data.number("dcm/position"); }, Exit::kFileError);
+  EXPECT_CONTAINS(acinus::test::message_of([&] { data.numbers("absent"); }, Exit::kFileError),
+                  "has no \"absent\"");
+  EXPECT_CONTAINS(acinus::test::message_of([&] { data.integers("time"); }, Exit::kFileError),
+                  "holds 64-bit floats, but signed");
+  acinus::test::message_of([&] { data.text("time"); }, Exit::kFileError);
+  acinus::test::message_of([&] { data.number("dcm/position"); }, Exit::kFileError);
   EXPECT_FALSE(data.contains("absent"));
 }
 
 TEST(Checkpoint, NamesMustBePlainAndDistinct) {
   CheckpointData data = make_data(1);
   for (const char* name : {"", "/a", "a/", "a//b", "a b", "time", "time/x", "dcm"}) {
-    error_of([&] { data.put(name, "x"); }, Exit::kInternal);
+    acinus::test::message_of([&] { data.put(name, "x"); }, Exit::kInternal);
   }
 }
 
 TEST(Checkpoint, KeepsTheOneBefore) {
   const Folder folder("checkpoint_prev");
   EXPECT_FALSE(has_checkpoint(folder.path));
-  error_of([&] { load_checkpoint(folder.path); }, Exit::kFileError);
+  acinus::test::message_of([&] { load_checkpoint(folder.path); }, Exit::kFileError);
   for (const double x : {1.0, 2.0, 3.0}) save_checkpoint(folder.path, make_data(x));
   EXPECT_TRUE(has_checkpoint(folder.path));
   EXPECT_EQ(load_checkpoint(folder.path).data.number("time"), 3.0);
   std::filesystem::remove(folder / "checkpoint.h5");
   const auto loaded = load_checkpoint(folder.path);
   EXPECT_EQ(loaded.data.number("time"), 2.0);
-  EXPECT_NE(loaded.warning.find("checkpoint.prev.h5"), std::string::npos) << loaded.warning;
+  EXPECT_CONTAINS(loaded.warning, "checkpoint.prev.h5");
 }
 
 /// Changes one byte at a time, everywhere: the result is the true state, the one before, but never
@@ -125,8 +114,8 @@ TEST(Checkpoint, DamageAnywhereIsNoticedOrHarmless) {
   write_text_file(folder / "checkpoint.h5", whole.substr(0, whole.size() / 2));
   EXPECT_EQ(load_checkpoint(folder.path).data.number("time"), 1.0);
   write_text_file(folder / "checkpoint.prev.h5", "");
-  EXPECT_NE(error_of([&] { load_checkpoint(folder.path); }, Exit::kFileError).find("Neither"),
-            std::string::npos);
+  EXPECT_CONTAINS(acinus::test::message_of([&] { load_checkpoint(folder.path); }, Exit::kFileError),
+                  "Neither");
 }
 
 /// The list of arrays has no checksum of its own: one that names an array twice, or none that can
@@ -142,7 +131,7 @@ TEST(Checkpoint, DamagedListOfArraysIsDamage) {
           "/names", {reinterpret_cast<const std::uint8_t*>(list.data()), list.size()});
       file.close();
     }
-    error_of([&] { load_state_file(folder / "state.h5"); }, Exit::kFileError);
+    acinus::test::message_of([&] { load_state_file(folder / "state.h5"); }, Exit::kFileError);
   }
 }
 
@@ -156,9 +145,9 @@ TEST(Checkpoint, NewerFormatIsRefusedNotReplaced) {
     file.write_attribute("/", "schema_version", version);
     file.close();
   }
-  const std::string message = error_of([&] { load_checkpoint(folder.path); }, Exit::kFileError);
-  EXPECT_NE(message.find("3.0 is newer than this program reads (2.0)"), std::string::npos)
-      << message;
+  const std::string message =
+      acinus::test::message_of([&] { load_checkpoint(folder.path); }, Exit::kFileError);
+  EXPECT_CONTAINS(message, "3.0 is newer than this program reads (2.0)");
 }
 
 TEST(Checkpoint, UnfinishedFileFallsBack) {
@@ -172,7 +161,7 @@ TEST(Checkpoint, UnfinishedFileFallsBack) {
     file.close();
   }
   const auto loaded = load_checkpoint(folder.path);
-  EXPECT_NE(loaded.warning.find("not finished"), std::string::npos);
+  EXPECT_CONTAINS(loaded.warning, "not finished");
   EXPECT_EQ(loaded.data.number("time"), 1.0);
 }
 

@@ -10,23 +10,22 @@
 #include <thread>
 
 #include "core/error.hpp"
+#include "tests/io/sample.hpp"
 
 namespace acinus::io {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string path(const char* name) { return testing::TempDir() + name + std::to_string(getpid()); }
-
 TEST(Disk, TextReplacesAFile) {
-  write_text_file(path("text"), "long before");
-  write_text_file(path("text"), "after");
-  EXPECT_EQ(read_text_file(path("text")), "after");
-  EXPECT_FALSE(fs::exists(path("text") + ".tmp"));
+  write_text_file(test::path("text"), "long before");
+  write_text_file(test::path("text"), "after");
+  EXPECT_EQ(read_text_file(test::path("text")), "after");
+  EXPECT_FALSE(fs::exists(test::path("text") + ".tmp"));
 }
 
 TEST(Disk, PipesAndDevicesGetTheTextAndStay) {
-  const std::string pipe = path("pipe"), text(200'000, 'x');
+  const std::string pipe = test::path("pipe"), text(200'000, 'x');
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   std::string read;
   {
@@ -39,7 +38,7 @@ TEST(Disk, PipesAndDevicesGetTheTextAndStay) {
   fs::remove(pipe);
   // Not the devices themselves: a fault here would take them from the machine.
   for (const auto& [device, minor] : {std::pair{"null", 3}, {"full", 7}}) {
-    const std::string node = path(device);
+    const std::string node = test::path(device);
     if (mknod(node.c_str(), S_IFCHR | 0600, makedev(1, minor)) != 0) GTEST_SKIP();
     if (minor == 3)
       write_text_file(node, text);

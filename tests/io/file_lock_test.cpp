@@ -11,13 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "tests/io/sample.hpp"
+
 namespace acinus::io {
 namespace {
 
-std::string path(const char* name) { return testing::TempDir() + name + std::to_string(getpid()); }
-
 TEST(FileLock, IsHeldByOne) {
-  const std::string file = path("lock");
+  const std::string file = test::path("lock");
   EXPECT_FALSE(is_locked(file)) << "no such file";
   {
     const auto held = FileLock::try_take(file);
@@ -30,17 +30,17 @@ TEST(FileLock, IsHeldByOne) {
 }
 
 TEST(FileLock, SaysWhoHoldsIt) {
-  const std::string file = path("named");
+  const std::string file = test::path("named");
   const std::string me = "process " + std::to_string(getpid()) + " on ";
   std::ofstream(file) << "process 1 on elsewhere since long ago, and the rest of a longer line\n";
   const FileLock held = FileLock::take(file);
   EXPECT_TRUE(name_holder(file).starts_with(me)) << name_holder(file);
-  EXPECT_EQ(name_holder(path("none")), "another process");
+  EXPECT_EQ(name_holder(test::path("none")), "another process");
 }
 
 // Between taking a lock and signing it, the file holds nothing or what a killed process left.
 TEST(FileLock, WaitsForTheHolderToSign) {
-  const std::string file = path("unsigned");
+  const std::string file = test::path("unsigned");
   const pid_t ended = fork();
   if (ended == 0) _exit(0);
   waitpid(ended, nullptr, 0);
@@ -65,7 +65,7 @@ TEST(FileLock, WaitsForTheHolderToSign) {
 }
 
 TEST(FileLock, MovesWithItsOwner) {
-  const std::string file = path("moved");
+  const std::string file = test::path("moved");
   FileLock a = FileLock::take(file);
   const FileLock b = std::move(a);
   EXPECT_TRUE(is_locked(file));
@@ -78,7 +78,7 @@ mode_t mode_of(const std::string& file) {
 
 // A lock can be taken through a descriptor that only reads: to read it is to keep its owner out.
 TEST(FileLock, IsForThoseWhoMayWriteInTheFolder) {
-  const std::string folder = path("folder"), file = folder + "/lock";
+  const std::string folder = test::path("folder"), file = folder + "/lock";
   mkdir(folder.c_str(), 0700);
   const std::vector<std::pair<mode_t, mode_t>> cases{
       {0700, 0600}, {0755, 0600}, {0775, 0660}, {0770, 0660}, {0777, 0666}};
@@ -95,7 +95,7 @@ TEST(FileLock, IsForThoseWhoMayWriteInTheFolder) {
 // Those who may not open a lock see whether somebody holds it.
 TEST(FileLock, IsSeenByReaders) {
   if (geteuid() != 0) GTEST_SKIP() << "takes an administrator's account";
-  const std::string folder = path("seen"), file = folder + "/lock";
+  const std::string folder = test::path("seen"), file = folder + "/lock";
   mkdir(folder.c_str(), 0755);
   const auto as_nobody = [&] {
     const pid_t child = fork();

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "io/disk.hpp"
 #include "tests/io/sample.hpp"
+#include "tests/messages.hpp"
 
 namespace acinus::io::h5 {
 namespace {
@@ -89,14 +90,8 @@ TEST(Hdf5, TextAndAttributes) {
 
 TEST(Hdf5, ErrorsNameFileAttemptAndReason) {
   const Folder folder("hdf5_error");
-  const auto message = [](const auto& action) -> std::string {
-    try {
-      action();
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), Exit::kFileError);
-      return error.what();
-    }
-    return "no error";
+  const auto message = [](const auto& action) {
+    return acinus::test::message_of(action, Exit::kFileError);
   };
   EXPECT_EQ(message([&] { File::open(folder / "x.h5", Access::kRead); }),
             folder /
@@ -104,13 +99,10 @@ TEST(Hdf5, ErrorsNameFileAttemptAndReason) {
                 "Check the path: the folder or file does not exist.");
   File file = File::create(folder / "a.h5", Format::kEarliest);
   file.create_rows<double>("/a", {}, "um");
-  EXPECT_NE(message([&] { file.read_all<float>("/a"); }).find("unexpected type"),
-            std::string::npos);
-  EXPECT_NE(message([&] { file.read_rows<double>("/a", 5, 2); }).find("rows up to 7"),
-            std::string::npos);
-  EXPECT_NE(message([&] { file.n_row("/b"); }).find("cannot open dataset /b"), std::string::npos);
-  EXPECT_NE(message([&] { File::create(folder.path, Format::kEarliest); }).find("Is a directory"),
-            std::string::npos);
+  EXPECT_CONTAINS(message([&] { file.read_all<float>("/a"); }), "unexpected type");
+  EXPECT_CONTAINS(message([&] { file.read_rows<double>("/a", 5, 2); }), "rows up to 7");
+  EXPECT_CONTAINS(message([&] { file.n_row("/b"); }), "cannot open dataset /b");
+  EXPECT_CONTAINS(message([&] { File::create(folder.path, Format::kEarliest); }), "Is a directory");
 }
 
 }  // namespace

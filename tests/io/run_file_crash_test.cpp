@@ -21,6 +21,7 @@
 #include "io/run_reader.hpp"
 #include "tests/io/expect_frame.hpp"
 #include "tests/io/sample.hpp"
+#include "tests/messages.hpp"
 
 namespace acinus::io {
 namespace {
@@ -194,14 +195,7 @@ TEST(RunFileCrash, KillWhileSavingLeavesACheckpoint) {
 }
 
 void expect_file_error(const std::string& part, const std::function<void()>& action) {
-  try {
-    action();
-    ADD_FAILURE() << "no error, expected one with \"" << part << "\"";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), Exit::kFileError);
-    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-    std::printf("%s\n", error.what());
-  }
+  EXPECT_CONTAINS(acinus::test::message_of(action, Exit::kFileError), part);
 }
 
 /// Files may not grow beyond `limit` bytes while this exists: the disk is "full".

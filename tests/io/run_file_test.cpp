@@ -11,6 +11,7 @@
 #include "io/run_reader.hpp"
 #include "tests/io/expect_frame.hpp"
 #include "tests/io/sample.hpp"
+#include "tests/messages.hpp"
 
 namespace acinus::io {
 namespace {
@@ -56,13 +57,7 @@ void expect_run(const std::string& path, int n) {
 }
 
 void expect_error(Exit code, const std::string& part, const std::function<void()>& action) {
-  try {
-    action();
-    ADD_FAILURE() << "no error, expected one with \"" << part << "\"";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), code) << error.what();
-    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-  }
+  EXPECT_CONTAINS(acinus::test::message_of(action, code), part);
 }
 
 class RunFileTest : public testing::TestWithParam<bool> {};

@@ -7,8 +7,7 @@
 int main() {
   using namespace acinus::coupling;
   const World world = make_test_world({{{0, 0, 0}}, {{23, 0, 0}, false}});
-  Workspace work;
-  size_workspace(world, work);
+  SizedWorkspace work(world);
   assemble(world, 60, work);
   work.system.force.shrink_to_fit();  // what lies behind must not belong to it
   const std::size_t past = work.system.force.size();

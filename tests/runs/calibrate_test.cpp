@@ -6,11 +6,6 @@
 namespace acinus::runs {
 namespace {
 
-using program::Json;
-using program::Outcome;
-using program::Words;
-namespace fs = std::filesystem;
-
 constexpr const char* kClump = R"({
   "name": "clump", "experiment": "capsule", "model": "dcm",
   "time": { "end": "4.4 h", "step": "60 s", "tolerance": "0.1 um" },
@@ -22,7 +17,7 @@ constexpr const char* kClump = R"({
   "output": { "every": "6 min" }
 })";
 
-class Calibrate : public program::ProgramTest {
+class Calibrate : public ProgramTest {
  protected:
   Calibrate() { write("clump.json", kClump); }
 
@@ -30,14 +25,6 @@ class Calibrate : public program::ProgramTest {
     Words words{"calibrate", "clump.json", "--out", "law.json", "--threads", "1"};
     words.insert(words.end(), more.begin(), more.end());
     return call(words);
-  }
-  Json read(const std::string& name) const {
-    std::ifstream file(path(name));
-    return Json::parse(file);
-  }
-  std::string text(const std::string& name) const {
-    std::ifstream file(path(name));
-    return {std::istreambuf_iterator<char>(file), {}};
   }
   void replace(const std::string& name, const std::string& from, const std::string& to) const {
     std::string all = text(name);
@@ -47,35 +34,31 @@ class Calibrate : public program::ProgramTest {
   }
 };
 
-bool has(const Outcome& outcome, const std::string& part) {
-  return outcome.text.find(part) != std::string::npos;
-}
-
 TEST_F(Calibrate, WritesALawThatScenesUseAndRunsThatCompare) {
   const Words one_term{"--good-enough", "1"};
   const Outcome first = calibrate(one_term);
   ASSERT_EQ(first.code, 0) << first.text;
   for (const char* part :
        {"a1", "95 % interval", "range of d", "at walls they leave out", "relaxation after release"})
-    EXPECT_TRUE(has(first, part)) << part << "\n" << first.text;
-  const Json law = read("law.json");
+    EXPECT_CONTAINS(first.text, part);
+  const Json law = json("law.json");
   EXPECT_GT(law["a1_kPa"], 0);
   EXPECT_GE(law["wall_recess"], 0);
   EXPECT_NEAR(law["cbm"]["young_kPa"].get<double>(), 0.45, 1e-12);
   // One inner cell of 15: told on the terminal, in the report and in the law.
   for (const char* part : {"acinus: warning: law.json: cells that are not at the capsule: 1;",
                            "--cells 59", "fit for other scenes                         no"})
-    EXPECT_TRUE(has(first, part)) << part << "\n" << first.text;
+    EXPECT_CONTAINS(first.text, part);
   EXPECT_FALSE(law["warnings"].empty());
-  EXPECT_EQ(read("law.calibration/curves.json")["warnings"], law["warnings"]);
+  EXPECT_EQ(json("law.calibration/curves.json")["warnings"], law["warnings"]);
   for (const char* file : {"curves.json", "force.svg", "relaxation.svg"})
     EXPECT_TRUE(fs::exists(path(std::string("law.calibration/") + file))) << file;
 
   // Everything is there: the second time compresses nothing.
-  const Json before = read("law.calibration/compression_dcm/summary.json");
+  const Json before = json("law.calibration/compression_dcm/summary.json");
   ASSERT_EQ(calibrate(one_term).code, 0);
-  EXPECT_EQ(read("law.calibration/compression_dcm/summary.json"), before);
-  EXPECT_EQ(read("law.json")["a1_kPa"], law["a1_kPa"]);
+  EXPECT_EQ(json("law.calibration/compression_dcm/summary.json"), before);
+  EXPECT_EQ(json("law.json")["a1_kPa"], law["a1_kPa"]);
 
   const Words spheres{"--set", "model=cbm", "--set",
                       "cell_types.a.cbm.stiffness_correction=law.json"};
@@ -83,9 +66,9 @@ TEST_F(Calibrate, WritesALawThatScenesUseAndRunsThatCompare) {
   std::erase(words, std::string("--quiet"));
   const Outcome used = call(words);
   EXPECT_EQ(used.code, 0) << used.text;
-  EXPECT_TRUE(has(used, "kPa d^4")) << used.text;
-  EXPECT_TRUE(has(used, "law.json: cells that are not at the capsule: 1;")) << used.text;
-  EXPECT_FALSE(has(used, "the law holds for")) << used.text;
+  EXPECT_CONTAINS(used.text, "kPa d^4");
+  EXPECT_CONTAINS(used.text, "law.json: cells that are not at the capsule: 1;");
+  EXPECT_FALSE(test::contains(used.text, "the law holds for")) << used.text;
   EXPECT_EQ(summary("used")["state_hash"],
             summary("law.calibration/compression_corrected")["state_hash"]);
 
@@ -95,40 +78,38 @@ TEST_F(Calibrate, WritesALawThatScenesUseAndRunsThatCompare) {
   std::erase(words, std::string("--quiet"));
   const Outcome other = call(words);
   EXPECT_EQ(other.code, 0) << other.text;
-  EXPECT_TRUE(has(other, "bulk_modulus_kPa: the law holds for 2.5, here it is 5")) << other.text;
+  EXPECT_CONTAINS(other.text, "bulk_modulus_kPa: the law holds for 2.5, here it is 5");
 
   const std::string runs = "law.calibration/compression_";
   const Outcome same = call({"compare", runs + "dcm", runs + "dcm", "--tolerance", "pressure=0",
                              "--tolerance", "positions=0", "--out", "same.json"});
   EXPECT_EQ(same.code, 0) << same.text;
-  const Json compared = read("same.json");
+  const Json compared = json("same.json");
   EXPECT_TRUE(compared["passes"]);
   for (const Json& row : compared["differences"]) EXPECT_EQ(row["difference"], 0) << row;
   EXPECT_TRUE(fs::exists(path("same_pressure.svg")));
   const Outcome apart =
       call({"compare", runs + "dcm", runs + "cbm", "--tolerance", "normal_force=0.01"});
   EXPECT_EQ(apart.code, 5) << apart.text;
-  EXPECT_TRUE(has(apart, "BEYOND (1 %)")) << apart.text;
-  EXPECT_TRUE(has(apart, "drag in")) << apart.text;
+  EXPECT_CONTAINS(apart.text, "BEYOND (1 %)");
+  EXPECT_CONTAINS(apart.text, "drag in");
 }
 
 TEST_F(Calibrate, GoesOnWhereItWasStopped) {
-  program::Process process(
-      path(""), {"calibrate", "clump.json", "--out", "law.json", "--threads", "1", "--fresh",
-                 "--no-relaxation", "--set", "capsule.speed=3 um/h"});
+  Process process(path(""), {"calibrate", "clump.json", "--out", "law.json", "--threads", "1",
+                             "--fresh", "--no-relaxation", "--set", "capsule.speed=3 um/h"});
   ASSERT_TRUE(process.await("skipped:"));
   process.send(SIGTERM);
   const Outcome stopped = process.wait();
   EXPECT_EQ(stopped.code, 75) << stopped.text;
   EXPECT_FALSE(fs::exists(path("law.json")));
-  EXPECT_TRUE(has(stopped,
+  EXPECT_CONTAINS(stopped.text,
                   "acinus calibrate clump.json --out law.json --threads 1 "
-                  "--no-relaxation --set 'capsule.speed=3 um/h'"))
-      << stopped.text;
-  EXPECT_FALSE(has(stopped, "--resume")) << stopped.text;
+                  "--no-relaxation --set 'capsule.speed=3 um/h'");
+  EXPECT_FALSE(test::contains(stopped.text, "--resume")) << stopped.text;
   const Outcome again = calibrate({"--no-relaxation"});
   EXPECT_EQ(again.code, 0) << again.text;
-  EXPECT_TRUE(has(again, "resumed at")) << again.text;
+  EXPECT_CONTAINS(again.text, "resumed at");
   EXPECT_TRUE(fs::exists(path("law.json")));
 }
 
@@ -138,11 +119,11 @@ TEST_F(Calibrate, BadInputIsRefusedWithTheReason) {
   const Outcome weak =
       calibrate({"--set", "capsule.min_radius=39.9 um", "--set", "time.end=30 min"});
   EXPECT_EQ(weak.code, 3) << weak.text;
-  EXPECT_TRUE(has(weak, "Compress further")) << weak.text;
+  EXPECT_CONTAINS(weak.text, "Compress further");
   EXPECT_EQ(call({"compare", "nowhere", "here"}).code, 4);
   const Outcome unknown = call({"compare", "a", "b", "--tolerance", "presure=1"});
   EXPECT_EQ(unknown.code, 2) << unknown.text;
-  EXPECT_TRUE(has(unknown, "Did you mean \"pressure\"?")) << unknown.text;
+  EXPECT_CONTAINS(unknown.text, "Did you mean \"pressure\"?");
   EXPECT_EQ(call({"compare", "a"}).code, 2);
 
   const Words spheres{"--set", "model=cbm", "--set",
@@ -150,7 +131,7 @@ TEST_F(Calibrate, BadInputIsRefusedWithTheReason) {
   const auto refuse = [&](const char* part) {
     const Outcome outcome = call(run_words("clump.json", "refused", spheres));
     EXPECT_EQ(outcome.code, 2) << outcome.text;
-    EXPECT_TRUE(has(outcome, part)) << part << "\n" << outcome.text;
+    EXPECT_CONTAINS(outcome.text, part);
     EXPECT_FALSE(fs::exists(path("refused")));
   };
   refuse("no such file");

@@ -13,17 +13,9 @@
 namespace acinus::runs {
 namespace {
 
-using program::Outcome;
-using program::Words;
-namespace fs = std::filesystem;
-
-bool has(const Outcome& outcome, const std::string& part) {
-  return outcome.text.find(part) != std::string::npos;
-}
-
-class Compare : public program::ProgramTest {
+class Compare : public ProgramTest {
  protected:
-  Compare() { write("pair.json", program::kPair); }
+  Compare() { write("pair.json", kPair); }
   void run(const std::string& out, const Words& more = {}, int code = 0) {
     const Outcome made = call(run_words("pair.json", out, more));
     ASSERT_EQ(made.code, code) << made.text;
@@ -41,8 +33,8 @@ class Compare : public program::ProgramTest {
                            const Words& more = {}) {
     for (const Outcome& outcome : {compare(a, b, more), compare(b, a, more)}) {
       EXPECT_EQ(outcome.code, 5) << outcome.text;
-      EXPECT_TRUE(has(outcome, "not measured: " + why)) << outcome.text;
-      EXPECT_FALSE(has(outcome, "within")) << outcome.text;
+      EXPECT_CONTAINS(outcome.text, "not measured: " + why);
+      EXPECT_FALSE(test::contains(outcome.text, "within")) << outcome.text;
     }
   }
 };
@@ -55,7 +47,7 @@ TEST_F(Compare, EqualRunsAreWithinAnyTolerance) {
     exact.insert(exact.end(), {"--tolerance", std::string(name) + "=0"});
   const Outcome same = call(exact);
   EXPECT_EQ(same.code, 0) << same.text;
-  EXPECT_FALSE(has(same, "not measured")) << same.text;
+  EXPECT_FALSE(test::contains(same.text, "not measured")) << same.text;
   EXPECT_EQ(compare("a", "b").code, 0);
 }
 
@@ -67,12 +59,11 @@ TEST_F(Compare, ARunThatFailedHasNoVerdict) {
   expect_not_measured("good", "bad", "bad failed at ");
   const Outcome without = call({"compare", "good", "bad"});
   EXPECT_EQ(without.code, 0) << "no verdict was asked for: " << without.text;
-  EXPECT_TRUE(has(without, "note: bad failed at ")) << without.text;
+  EXPECT_CONTAINS(without.text, "note: bad failed at ");
   const Outcome file = compare("good", "bad", {"--out", "c.json"});
-  std::ifstream in(path("c.json"));
-  const program::Json json = program::Json::parse(in);
-  EXPECT_FALSE(json["passes"]);
-  for (const program::Json& row : json["differences"]) EXPECT_FALSE(row["passes"]) << row;
+  const Json verdict = json("c.json");
+  EXPECT_FALSE(verdict["passes"]);
+  for (const Json& row : verdict["differences"]) EXPECT_FALSE(row["passes"]) << row;
 }
 
 TEST_F(Compare, AShorterRunHasNoVerdictButAtAMomentThatBothHave) {
@@ -81,7 +72,7 @@ TEST_F(Compare, AShorterRunHasNoVerdictButAtAMomentThatBothHave) {
   expect_not_measured("whole", "half", "whole ends at 0.1333 h, but the last frame that all runs");
   const Outcome there = compare("whole", "half", {"--until", "4 min"});
   EXPECT_EQ(there.code, 0) << there.text;
-  EXPECT_TRUE(has(there, "3 frames from 0 h to 0.06667 h")) << there.text;
+  EXPECT_CONTAINS(there.text, "3 frames from 0 h to 0.06667 h");
   expect_not_measured("whole", "half", "half has frames until 0.06667 h only",
                       {"--until", "6 min"});
   expect_not_measured("whole", "half", "", {"--until", "3 min"});  // between frames
@@ -96,7 +87,7 @@ TEST_F(Compare, FramesAtOtherTimesAreTold) {
   run("b", {"--set", "output.every=4 min"});
   const Outcome outcome = compare("a", "b");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
-  EXPECT_TRUE(has(outcome, "3 of 5 frames of a are at times that all runs have")) << outcome.text;
+  EXPECT_CONTAINS(outcome.text, "3 of 5 frames of a are at times that all runs have");
   run("c", {"--set", "time.end=7 min"});
   expect_not_measured("a", "c", "");
 }
@@ -106,8 +97,7 @@ TEST_F(Compare, WhatTellsCellsApartNeedsTheSameCells) {
   run("one", {"--set", R"(cells.list=[{"position": ["0 um", "0 um", "0 um"], "model": "dcm"}])"});
   const Outcome outcome = compare("two", "one");
   EXPECT_EQ(outcome.code, 5) << outcome.text;
-  EXPECT_TRUE(has(outcome, "1 of 2 cells of two and 0 of 1 of one are not in the other"))
-      << outcome.text;
+  EXPECT_CONTAINS(outcome.text, "1 of 2 cells of two and 0 of 1 of one are not in the other");
   const Outcome number = call({"compare", "two", "one", "--tolerance", "cells=0.5"});
   EXPECT_EQ(number.code, 0) << "counting needs no counterpart: " << number.text;
   const Outcome density = call({"compare", "one", "one", "--tolerance", "density=1"});
@@ -119,7 +109,7 @@ TEST_F(Compare, WhatWasNotMeasuredIsNoPass) {
   for (const char* name : {"lesion_area", "overlap", "normal_force"}) {
     const Outcome outcome = call({"compare", "a", "a", "--tolerance", std::string(name) + "=1"});
     EXPECT_EQ(outcome.code, 5) << outcome.text;
-    EXPECT_TRUE(has(outcome, "was not measured in every frame")) << outcome.text;
+    EXPECT_CONTAINS(outcome.text, "was not measured in every frame");
   }
   // No contact in the reference, contact here: any difference is infinite, not none.
   const std::string apart =
@@ -129,7 +119,7 @@ TEST_F(Compare, WhatWasNotMeasuredIsNoPass) {
     const Outcome outcome =
         call({"compare", "apart", "a", "--tolerance", std::string(name) + "=100"});
     EXPECT_EQ(outcome.code, 5) << outcome.text;
-    EXPECT_TRUE(has(outcome, "BEYOND")) << outcome.text;
+    EXPECT_CONTAINS(outcome.text, "BEYOND");
   }
   const Outcome nothing = compare("apart", "apart");
   EXPECT_EQ(nothing.code, 0) << nothing.text;
@@ -142,7 +132,7 @@ TEST_F(Compare, FramesCloserThanASecondAreToldApart) {
   run("b", fast);
   const Outcome outcome = compare("a", "b");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
-  EXPECT_TRUE(has(outcome, "5 frames from 0 h to 0.0001111 h")) << outcome.text;
+  EXPECT_CONTAINS(outcome.text, "5 frames from 0 h to 0.0001111 h");
   const Comparison c = compare_runs({path("a").string(), path("b").string()}, {});
   for (const auto& row : c.difference[0])
     EXPECT_TRUE(row.difference == 0 || row.name == "cpu") << row.name;
@@ -158,7 +148,7 @@ TEST_F(Compare, FoldersWithoutAFinishedRunSayWhatTheyAre) {
          {Words{"compare", "good", folder}, Words{"compare", folder, "good"}}) {
       const Outcome outcome = call(words);
       EXPECT_EQ(outcome.code, code) << outcome.text;
-      EXPECT_TRUE(has(outcome, why)) << outcome.text;
+      EXPECT_CONTAINS(outcome.text, why);
     }
   };
   refused("missing", 4, "no such folder");
@@ -168,7 +158,7 @@ TEST_F(Compare, FoldersWithoutAFinishedRunSayWhatTheyAre) {
     const Words words{
         "run",        "pair.json", "--out", "killed run",   "--threads",          "1",
         "--progress", "json",      "--set", "time.end=9 d", "--checkpoint-every", "0.01 s"};
-    program::Process process(folder_, words);
+    Process process(folder_, words);
     ASSERT_TRUE(process.await("\"running\""));
     refused("killed run", 2, "goes on");
     while (!fs::exists(path("killed run") / "checkpoint.h5")) usleep(1000);

@@ -6,6 +6,10 @@
 #include <tuple>
 #include <vector>
 
+#include "coupling/apparatus/pull/pull.hpp"
+#include "coupling/apparatus/stretcher/stretcher.hpp"
+#include "coupling/apparatus/suction/suction.hpp"
+#include "coupling/apparatus/temperature/temperature.hpp"
 #include "runs/assemble/build_boundary.hpp"
 #include "runs/assemble/build_life.hpp"
 #include "runs/assemble/build_params.hpp"
@@ -106,7 +110,7 @@ auto fields(const coupling::Numerics& p) {
 TEST(Defaults, OfTheLibraryAreThoseOfScenes) {
   const coupling::Params scene = params_of(), library;
   const auto& [dcm, cbm, dcm_contact, cbm_contact, interface, start_up, motility, life, sleep, zoom,
-               numerics, boundary, tree, temperature, stretcher, suction, pulls] = scene;
+               numerics, boundary, tree, apparatus] = scene;
   ASSERT_EQ(dcm.size(), 1u);
   EXPECT_EQ(fields(dcm[0]), fields(dcm::Params{}));
   EXPECT_EQ(fields(cbm[0]), fields(cbm::Params{}));
@@ -120,21 +124,26 @@ TEST(Defaults, OfTheLibraryAreThoseOfScenes) {
   EXPECT_EQ(fields(zoom), fields(library.zoom));
   EXPECT_EQ(zoom.moves(), library.zoom.moves());
   EXPECT_EQ(fields(numerics), fields(library.numerics));
-  EXPECT_TRUE(boundary.planes.empty() && !tree.exists() && pulls.empty());
-  EXPECT_TRUE(temperature.course.entry.empty() && suction.pressure.entry.empty() &&
-              stretcher.pulse.empty());
+  EXPECT_TRUE(boundary.planes.empty() && !tree.exists());
+  EXPECT_TRUE(apparatus.get<coupling::Pulls>().pull.empty());
+  EXPECT_TRUE(apparatus.get<coupling::Temperature>().course.entry.empty());
+  EXPECT_TRUE(apparatus.get<coupling::Suction>().pressure.entry.empty());
+  EXPECT_TRUE(apparatus.get<coupling::Stretcher>().pulse.empty());
 }
 
 TEST(Defaults, OfBlocksThatMayBeAbsentAreThoseOfTheLibrary) {
   const coupling::Params p =
       params_of({"life.proliferation={}", "cell_types.hepatocyte.cycle.time=24 h", "moving_zoom={}",
-                 "cells.model=zoom", "zoom=[{\"kind\": \"all\"}]", "temperature={}"});
+                 "cells.model=zoom", "zoom=[{\"kind\": \"all\"}]",
+                 "temperature.course=[{\"time\": \"0 s\", \"value\": \"310 K\"}]"});
   EXPECT_EQ(fields(p.life.proliferation.value()), fields(coupling::Proliferation{}));
   coupling::ZoomParams zoom;
   zoom.region.resize(1);
   EXPECT_EQ(fields(p.zoom), fields(zoom));
-  EXPECT_EQ(p.temperature.reference, coupling::Temperature{}.reference);
-  EXPECT_EQ(p.temperature.activation, coupling::Temperature{}.activation);
+  const coupling::Temperature& temperature = p.apparatus.get<coupling::Temperature>();
+  ASSERT_EQ(temperature.course.entry.size(), 1u);
+  EXPECT_EQ(temperature.reference, coupling::Temperature{}.reference);
+  EXPECT_EQ(temperature.activation, coupling::Temperature{}.activation);
 }
 
 TEST(Defaults, OfALobuleAreThoseOfTheGenerator) {

@@ -16,7 +16,7 @@ namespace acinus::runs {
 namespace {
 
 /// Sums of a handful of numbers: a few roundings, relative.
-constexpr double kRoundOff = 1e-13;
+constexpr double kSumRoundOff = 1e-13;
 
 coupling::CellMeasure cell(const Vec3& center, double pressure_kPa, bool deformable = false) {
   coupling::CellMeasure c;
@@ -63,16 +63,16 @@ TEST(Spheroid, SeriesOfKnownCells) {
   EXPECT_EQ(last(m, "time_s"), 7200);
   EXPECT_EQ(last(m, "cells"), 9);
   EXPECT_NEAR(last(m, "radius_of_gyration_um"), std::sqrt((6 * 900 + 2 * 196) / 9.0),
-              30 * kRoundOff);
-  EXPECT_NEAR(last(m, "mean_pressure_Pa"), (400 + 6 * 100 + 2 * 250) / 9.0, 400 * kRoundOff);
+              30 * kSumRoundOff);
+  EXPECT_NEAR(last(m, "mean_pressure_Pa"), (400 + 6 * 100 + 2 * 250) / 9.0, 400 * kSumRoundOff);
   // Below 10 um there is one cell, from 20 um on six.
   const double third = 4.0 / 3 * kPi * 1000;
-  EXPECT_NEAR(last(m, "inner_pressure_Pa"), 400, 400 * kRoundOff);
-  EXPECT_NEAR(last(m, "outer_pressure_Pa"), 100, 400 * kRoundOff);
-  EXPECT_NEAR(last(m, "inner_cytosol_pressure_Pa"), 800, 800 * kRoundOff);
-  EXPECT_NEAR(last(m, "outer_cytosol_pressure_Pa"), 200, 800 * kRoundOff);
-  EXPECT_NEAR(last(m, "inner_density") / (1e9 / third), 1, kRoundOff);
-  EXPECT_NEAR(last(m, "outer_density") / (6e9 / (19 * third)), 1, kRoundOff);
+  EXPECT_NEAR(last(m, "inner_pressure_Pa"), 400, 400 * kSumRoundOff);
+  EXPECT_NEAR(last(m, "outer_pressure_Pa"), 100, 400 * kSumRoundOff);
+  EXPECT_NEAR(last(m, "inner_cytosol_pressure_Pa"), 800, 800 * kSumRoundOff);
+  EXPECT_NEAR(last(m, "outer_cytosol_pressure_Pa"), 200, 800 * kSumRoundOff);
+  EXPECT_NEAR(last(m, "inner_density") / (1e9 / third), 1, kSumRoundOff);
+  EXPECT_NEAR(last(m, "outer_density") / (6e9 / (19 * third)), 1, kSumRoundOff);
   EXPECT_FALSE(m.contains("sphericity")) << "there are only spheres";
 }
 
@@ -87,14 +87,14 @@ TEST(Spheroid, ProfileOfKnownCells) {
   for (int k = 0; k < 10; ++k) {
     const std::size_t i = k;
     const int count = k == 0 ? 1 : k == 4 ? 2 : k == 9 ? 6 : 0;
-    EXPECT_NEAR(radius[i], 3 * k + 1.5, 30 * kRoundOff) << k;
+    EXPECT_NEAR(radius[i], 3 * k + 1.5, 30 * kSumRoundOff) << k;
     const double volume = 36 * kPi * ((k + 1.0) * (k + 1) * (k + 1) - 1.0 * k * k * k);
     // The volume is a difference of cubes up to 1000/217 times as large.
-    EXPECT_NEAR(density[i], 1e9 * count / volume, 10 * kRoundOff * 1e9 / volume) << k;
+    EXPECT_NEAR(density[i], 1e9 * count / volume, 10 * kSumRoundOff * 1e9 / volume) << k;
     if (count == 0)
       EXPECT_TRUE(std::isnan(p[i])) << k;
     else
-      EXPECT_NEAR(p[i], k == 0 ? 400 : k == 4 ? 250 : 100, 400 * kRoundOff) << k;
+      EXPECT_NEAR(p[i], k == 0 ? 400 : k == 4 ? 250 : 100, 400 * kSumRoundOff) << k;
   }
 }
 
@@ -110,9 +110,9 @@ TEST(Spheroid, SeriesGrowAndProfilesAreOfTheLastFrame) {
                            "outer_cytosol_pressure_Pa", "inner_density", "outer_density"})
     EXPECT_EQ(m.at(name).size(), 2u) << name;
   const std::vector<double>& gyration = m.at("radius_of_gyration_um");
-  EXPECT_NEAR(gyration[1] / gyration[0], 2, 2 * kRoundOff);
+  EXPECT_NEAR(gyration[1] / gyration[0], 2, 2 * kSumRoundOff);
   ASSERT_EQ(m.at("profile_radius_um").size(), 10u);
-  EXPECT_NEAR(m.at("profile_radius_um")[9], 57, 60 * kRoundOff);
+  EXPECT_NEAR(m.at("profile_radius_um")[9], 57, 60 * kSumRoundOff);
 }
 
 TEST(Spheroid, OneCellHasNoDensityAndNoneHasNothing) {
@@ -121,7 +121,7 @@ TEST(Spheroid, OneCellHasNoDensityAndNoneHasNothing) {
   s.cells = {cell(Vec3(1, 2, 3), 0.05)};
   sample(scene_of(Experiment::kSpheroid), coupling::World{}, s, m);
   EXPECT_EQ(last(m, "radius_of_gyration_um"), 0);
-  EXPECT_NEAR(last(m, "inner_pressure_Pa"), 50, 50 * kRoundOff);
+  EXPECT_NEAR(last(m, "inner_pressure_Pa"), 50, 50 * kSumRoundOff);
   EXPECT_TRUE(std::isnan(last(m, "inner_density")));
   s.cells.clear();
   sample(scene_of(Experiment::kSpheroid), coupling::World{}, s, m);
@@ -142,7 +142,7 @@ TEST(Spheroid, SphericityIsThatOfTheDeformableCells) {
   s.cells[2].area = 100;
   Measures m;
   sample(scene_of(Experiment::kSpheroid), coupling::World{}, s, m);
-  EXPECT_NEAR(last(m, "sphericity"), 0.5 * (1 + std::cbrt(kPi / 6)), kRoundOff);
+  EXPECT_NEAR(last(m, "sphericity"), 0.5 * (1 + std::cbrt(kPi / 6)), kSumRoundOff);
   EXPECT_FALSE(m.contains("height_um")) << "only a monolayer has a height";
 }
 
@@ -151,13 +151,13 @@ TEST(Monolayer, ProfilesAreOfRings) {
   Measures m;
   sample(scene_of(Experiment::kMonolayer), coupling::World{}, s, m);
   // Two of the six outer cells stand above and below the middle one: r = 0.
-  EXPECT_NEAR(last(m, "inner_pressure_Pa"), (400 + 200) / 3.0, 400 * kRoundOff);
-  EXPECT_NEAR(last(m, "outer_pressure_Pa"), 100, 400 * kRoundOff);
-  EXPECT_NEAR(last(m, "inner_density") / (3e6 / (kPi * 100)), 1, kRoundOff);
-  EXPECT_NEAR(last(m, "outer_density") / (4e6 / (kPi * 500)), 1, kRoundOff);
-  EXPECT_NEAR(m.at("density_profile")[4] / (2e6 / (kPi * (225 - 144))), 1, 10 * kRoundOff);
+  EXPECT_NEAR(last(m, "inner_pressure_Pa"), (400 + 200) / 3.0, 400 * kSumRoundOff);
+  EXPECT_NEAR(last(m, "outer_pressure_Pa"), 100, 400 * kSumRoundOff);
+  EXPECT_NEAR(last(m, "inner_density") / (3e6 / (kPi * 100)), 1, kSumRoundOff);
+  EXPECT_NEAR(last(m, "outer_density") / (4e6 / (kPi * 500)), 1, kSumRoundOff);
+  EXPECT_NEAR(m.at("density_profile")[4] / (2e6 / (kPi * (225 - 144))), 1, 10 * kSumRoundOff);
   EXPECT_NEAR(last(m, "radius_of_gyration_um"), std::sqrt((6 * 900 + 2 * 196) / 9.0),
-              30 * kRoundOff);
+              30 * kSumRoundOff);
 }
 
 // ---- a wall that adheres ---------------------------------------------------------------------
@@ -180,18 +180,18 @@ Scene on_wall(const std::string& model, const std::string& wall,
 
 const std::string kSticky = R"(, "mirror": false, "adhesion": "1e-5 J/m^2")";
 
-struct Outcome {
+struct OneCell {
   Vec3 start = Vec3::Zero(), end = Vec3::Zero();  ///< um, centre
   double contact_area = 0;                        ///< um^2
   Measures measures;                              ///< of the end
 };
-Outcome simulate(Scene scene, double duration) {
+OneCell simulate(Scene scene, double duration) {
   scene.experiment = Experiment::kMonolayer;
   BuiltWorld built = build_world(scene, Ranks::serial());
   coupling::World& world = built.world;
   coupling::Workspace work;
   coupling::size_workspace(world, work);
-  Outcome out;
+  OneCell out;
   out.start = take_snapshot(world, work).cells.at(0).center;
   while (world.state.clock.time < duration - 1e-6) {
     const auto step = coupling::take_step(world, work, duration - world.state.clock.time);
@@ -207,7 +207,7 @@ Outcome simulate(Scene scene, double duration) {
 
 TEST(AdhesiveWall, SphereSinksToItsJkrRest) {
   const Scene scene = on_wall("cbm", kSticky, {});
-  const Outcome out = simulate(scene, 6 * 3600);
+  const OneCell out = simulate(scene, 6 * 3600);
   const contact::SphereBody sphere{12, 3 * 2.5 * (1 - 2 * 0.47), 0.47};
   const contact::SphereBody wall{contact::kFlat, contact::kRigid, 0};
   const double rest =
@@ -221,8 +221,8 @@ TEST(AdhesiveWall, SphereSinksToItsJkrRest) {
 }
 
 TEST(AdhesiveWall, DeformableCellFlattens) {
-  const Outcome out = simulate(on_wall("dcm", kSticky, {}), 6 * 3600);
-  const Outcome mirror = simulate(on_wall("dcm", "", {}), 6 * 3600);
+  const OneCell out = simulate(on_wall("dcm", kSticky, {}), 6 * 3600);
+  const OneCell mirror = simulate(on_wall("dcm", "", {}), 6 * 3600);
   std::printf(
       "DCM cell after 6 h: height %.2f um on the adhesive wall, %.2f um on a mirror; height/width "
       "%.3f and %.3f; contact area %.1f and %.1f um^2\n",
@@ -258,8 +258,8 @@ TEST(AdhesiveWall, FrictionIsThatOfVessels) {
                                         "friction.dcm_vessel=0 N s/m^3"};
   // The fifth hour, when the sphere's contact area A rests: it slides at
   // F/(gamma_ECM (S - A) + gamma_vessel A), a few times slower than off the wall.
-  const Outcome before = simulate(on_wall("cbm", kSticky, set), 4 * 3600);
-  const Outcome full = simulate(on_wall("cbm", kSticky, set), 5 * 3600);
+  const OneCell before = simulate(on_wall("cbm", kSticky, set), 4 * 3600);
+  const OneCell full = simulate(on_wall("cbm", kSticky, set), 5 * 3600);
   const double area = full.contact_area, surface = 4 * kPi * 144;
   const double expected = 0.1 * 3600 / (0.5 * (surface - area) + 100 * area);
   const double slid = full.end.x() - before.end.x();
@@ -267,8 +267,8 @@ TEST(AdhesiveWall, FrictionIsThatOfVessels) {
   // The solver works to 3e-3 of the force, and the links keep friction in single precision.
   EXPECT_NEAR(slid / expected, 1, 3e-3);
   for (const char* model : {"dcm", "cbm"}) {
-    const Outcome slow = simulate(on_wall(model, kSticky, set), 7200);
-    const Outcome fast = simulate(on_wall(model, kSticky, smooth), 7200);
+    const OneCell slow = simulate(on_wall(model, kSticky, set), 7200);
+    const OneCell fast = simulate(on_wall(model, kSticky, smooth), 7200);
     const double rough_um = slow.end.x() - slow.start.x(),
                  smooth_um = fast.end.x() - fast.start.x();
     std::printf("%s cell: slid %.4f um with and %.4f um without wall friction\n", model, rough_um,

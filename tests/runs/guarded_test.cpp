@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "core/error.hpp"
+#include "tests/messages.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -17,17 +18,14 @@ TEST(Guarded, GivesTheExitCodeOfTheWork) {
 }
 
 TEST(Guarded, ACrashIsADamagedFile) {
-  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) try {
-      run_guarded("a.h5", [&]() -> int {
-        ::signal(signal, SIG_DFL);
-        return raise(signal);
-      });
-      ADD_FAILURE() << signal;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), Exit::kFileError);
-      EXPECT_EQ(std::string(error.what()).find("a.h5: reading ended with signal"), 0U)
-          << error.what();
-    }
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) {
+    const auto crash = [&]() -> int {
+      ::signal(signal, SIG_DFL);
+      return raise(signal);
+    };
+    EXPECT_CONTAINS(test::message_of([&] { run_guarded("a.h5", crash); }, Exit::kFileError),
+                    "a.h5: reading ended with signal");
+  }
 }
 
 TEST(Guarded, PassesSignalsOn) {

@@ -10,9 +10,6 @@
 namespace acinus::runs {
 namespace {
 
-using program::Json;
-using program::Words;
-
 /// A spheroid whose cells divide every two hours: 42 nodes, random motility, some cells asleep.
 constexpr const char* kSpheroid = R"({
   "seed": 5,
@@ -28,25 +25,13 @@ constexpr const char* kSpheroid = R"({
   "output": {"every": "20 min"}
 })";
 
-class LifeResume : public program::ProgramTest {
+class LifeResume : public ProgramTest {
  protected:
   Json finish(const std::string& out, const std::string& model, Words more) const {
     more.insert(more.end(), {"--set", "model=" + model});
-    const program::Outcome outcome = call(run_words("spheroid.json", out, more));
+    const Outcome outcome = call(run_words("spheroid.json", out, more));
     EXPECT_EQ(outcome.code, 0) << outcome.text;
     return summary(out);
-  }
-  void expect_same(const std::string& a, const std::string& b) const {
-    const Json p = summary(a), q = summary(b);
-    EXPECT_EQ(p["state_hash"], q["state_hash"]) << a << " " << b;
-    EXPECT_EQ(p["steps"], q["steps"]);
-    EXPECT_EQ(p["cells"], q["cells"]);
-    EXPECT_EQ(p["measures"], q["measures"]);
-    const io::RunReader x = reader(a), y = reader(b);
-    EXPECT_EQ(x.n_frame(), y.n_frame());
-    EXPECT_EQ(x.series(), y.series());
-    EXPECT_EQ(x.observables(), y.observables());
-    program::expect_first_frames(program::read_frames(x), program::read_frames(y), a + " " + b);
   }
 };
 

@@ -11,9 +11,6 @@
 namespace acinus::runs {
 namespace {
 
-using program::Json;
-using program::Words;
-
 /// A small lobule of spheres that divide every two hours, with leaders.
 constexpr const char* kLobule = R"({
   "seed": 4,
@@ -29,10 +26,10 @@ constexpr const char* kLobule = R"({
   "output": {"every": "20 min"}
 })";
 
-class ObservablesRun : public program::ProgramTest {
+class ObservablesRun : public ProgramTest {
  protected:
   void run(const std::string& out, const Words& more = {}) const {
-    const program::Outcome outcome = call(run_words("lobule.json", out, more));
+    const Outcome outcome = call(run_words("lobule.json", out, more));
     ASSERT_EQ(outcome.code, 0) << outcome.text;
   }
 };

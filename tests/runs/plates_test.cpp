@@ -10,6 +10,7 @@
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/scene/reader.hpp"
+#include "tests/paths.hpp"
 #include "tests/reference/pressed_membrane.hpp"
 
 namespace acinus::runs {
@@ -38,7 +39,7 @@ double exact_force(const reference::PressedMembrane& m, double gap) {
 // under pressure, and contact points within the facets.
 TEST(PlatesScene, ForceIsThatOfTheMembrane) {
   for (const auto& [nodes, tolerance] : {std::pair(162, 0.10), {642, 0.04}}) {
-    const Scene scene = read_scene(ACINUS_SOURCE_DIR "/runs/scenes/plates.json",
+    const Scene scene = read_scene(test::source_path("runs/scenes/plates.json"),
                                    {"cell_types.suspended.dcm.nodes=" + std::to_string(nodes)});
     coupling::Simulation simulation(build_world(scene, Ranks::serial()).world);
     coupling::Workspace work;

@@ -16,9 +16,12 @@
 #include <string>
 #include <vector>
 
+#include "io/disk.hpp"
 #include "io/run_reader.hpp"
+#include "tests/messages.hpp"
+#include "tests/paths.hpp"
 
-namespace acinus::runs::program {
+namespace acinus::runs {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using Words = std::vector<std::string>;
@@ -35,7 +38,7 @@ class Process {
   Process(const fs::path& folder, const Words& words, rlim_t file_limit = 0) {
     std::array<int, 2> ends{};
     if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe");
-    Words all{ACINUS_PROGRAM};
+    Words all{test::program_path()};
     all.insert(all.end(), words.begin(), words.end());
     std::vector<char*> argv;
     for (std::string& word : all) argv.push_back(word.data());
@@ -126,10 +129,9 @@ class ProgramTest : public testing::Test {
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
-  Json summary(const std::string& run) const {
-    std::ifstream file(path(run) / "summary.json");
-    return Json::parse(file);
-  }
+  std::string text(const std::string& name) const { return io::read_text_file(path(name)); }
+  Json json(const std::string& name) const { return Json::parse(text(name)); }
+  Json summary(const std::string& run) const { return json(run + "/summary.json"); }
   io::RunReader reader(const std::string& run) const {
     return io::RunReader((path(run) / "run.vtkhdf").string());
   }
@@ -140,6 +142,9 @@ class ProgramTest : public testing::Test {
     std::ranges::sort(names);
     return names;
   }
+
+  /// The state, the counters and every frame of two runs agree to the last bit.
+  void expect_same(const std::string& a, const std::string& b) const;
 
   fs::path folder_;
 };
@@ -171,6 +176,17 @@ inline void expect_first_frames(const std::vector<io::Frame>& a, const std::vect
   }
 }
 
+inline void ProgramTest::expect_same(const std::string& a, const std::string& b) const {
+  const Json p = summary(a), q = summary(b);
+  for (const char* key : {"state_hash", "steps", "cells", "balance", "penetration_um", "measures"})
+    EXPECT_EQ(p.at(key), q.at(key)) << key << " " << a << " " << b;
+  const io::RunReader x = reader(a), y = reader(b);
+  EXPECT_EQ(x.n_frame(), y.n_frame());
+  EXPECT_EQ(x.series(), y.series());
+  EXPECT_EQ(x.observables(), y.observables());
+  expect_first_frames(read_frames(x), read_frames(y), a + " " + b);
+}
+
 /// A DCM cell and a CBM cell that touch, 42 nodes, 8 minutes.
 inline constexpr const char* kPair = R"({
   "seed": 3,
@@ -198,4 +214,4 @@ inline constexpr const char* kGrowing = R"({
   "output": {"every": "2 min", "start_up": true}
 })";
 
-}  // namespace acinus::runs::program
+}  // namespace acinus::runs

@@ -1,19 +1,15 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "tests/paths.hpp"
 #include "tests/runs/program.hpp"
 
 namespace acinus::runs {
 namespace {
 
-using program::Json;
-using program::Outcome;
-using program::Words;
-namespace fs = std::filesystem;
-
-class RunErrors : public program::ProgramTest {
+class RunErrors : public ProgramTest {
  protected:
-  RunErrors() { write("pair.json", program::kPair); }
+  RunErrors() { write("pair.json", kPair); }
 
   /// The scene with one change is refused by run and by check, with all of these words, and run
   /// makes no folder.
@@ -25,10 +21,9 @@ class RunErrors : public program::ProgramTest {
       const Outcome outcome = call(words);
       EXPECT_EQ(outcome.code, code) << words[0] << " " << changes[0] << "\n" << outcome.text;
       for (const std::string& part : parts)
-        EXPECT_NE(outcome.text.find(part), std::string::npos)
-            << words[0] << " " << changes[0] << ": \"" << part << "\" is missing in\n"
-            << outcome.text;
-      EXPECT_EQ(outcome.text.find("internal error"), std::string::npos) << outcome.text;
+        EXPECT_CONTAINS(outcome.text, part) << words[0] << changes[0] << ": \""
+                                            << "\" is missing in\n";
+      EXPECT_FALSE(test::contains(outcome.text, "internal error")) << outcome.text;
     }
     EXPECT_FALSE(fs::exists(path("refused"))) << changes[0];
   }
@@ -42,7 +37,7 @@ TEST_F(RunErrors, ResultsAreNeverReplacedUnasked) {
   const Outcome refused = call(run_words("pair.json", "a", {"--set", "seed=4"}));
   EXPECT_EQ(refused.code, 2);
   for (const char* part : {"--resume", "--overwrite", "--out a"})
-    EXPECT_NE(refused.text.find(part), std::string::npos) << refused.text;
+    EXPECT_CONTAINS(refused.text, part);
   EXPECT_EQ(summary("a"), before);
 
   write("a/mine.txt", "notes");
@@ -65,7 +60,7 @@ TEST_F(RunErrors, ResumeRefusesAnotherSceneAndListsTheKeys) {
   for (const char* part :
        {"/time/step: \"30 s\" -> \"20 s\"", "/cell_types/hepatocyte/radius: \"12 um\" -> \"11 um\"",
         "a/checkpoint.h5", "time.end"})
-    EXPECT_NE(changed.text.find(part), std::string::npos) << part << "\n" << changed.text;
+    EXPECT_CONTAINS(changed.text, part);
   const std::string cell = R"({"position": ["0 um", "0 um", "0 um"], "model": "dcm"})";
   const auto far = [](int x) {
     return R"({"position": [")" + std::to_string(x) + R"( um", "0 um", "0 um"], "model": "cbm"})";
@@ -75,7 +70,7 @@ TEST_F(RunErrors, ResumeRefusesAnotherSceneAndListsTheKeys) {
                 {"--resume", "--set",
                  "cells.list=[" + cell + "," + far(40) + "," + far(80) + "," + far(120) + "]"}));
   EXPECT_EQ(more.code, 2);
-  EXPECT_NE(more.text.find("/cells/list: 2 entries -> 4 entries"), std::string::npos) << more.text;
+  EXPECT_CONTAINS(more.text, "/cells/list: 2 entries -> 4 entries");
   EXPECT_EQ(summary("a"), before);
   const Outcome longer =
       call(run_words("pair.json", "a", {"--resume", "--set", "time.end=10 min"}));
@@ -87,7 +82,7 @@ TEST_F(RunErrors, ResumeRefusesAnotherSceneAndListsTheKeys) {
 TEST_F(RunErrors, ResumeNeedsACheckpointThatCanBeRead) {
   const Outcome none = call(run_words("pair.json", "none", {"--resume"}));
   EXPECT_EQ(none.code, 2);
-  EXPECT_NE(none.text.find("holds no checkpoint"), std::string::npos) << none.text;
+  EXPECT_CONTAINS(none.text, "holds no checkpoint");
   EXPECT_FALSE(fs::exists(path("none")));
 
   ASSERT_EQ(call(run_words("pair.json", "a", {"--until", "4 min"})).code, 0);
@@ -95,13 +90,12 @@ TEST_F(RunErrors, ResumeNeedsACheckpointThatCanBeRead) {
   fs::resize_file(path("b/checkpoint.h5"), 1000);
   const Outcome cut = call(run_words("pair.json", "b", {"--resume"}));
   EXPECT_EQ(cut.code, 4) << cut.text;
-  EXPECT_NE(cut.text.find("b/checkpoint.h5"), std::string::npos) << cut.text;
+  EXPECT_CONTAINS(cut.text, "b/checkpoint.h5");
   fs::copy(path("a/checkpoint.h5"), path("b/checkpoint.prev.h5"));
   const Outcome previous = call(run_words("pair.json", "b", {"--resume"}));
   EXPECT_EQ(previous.code, 0) << previous.text;
-  EXPECT_NE(previous.text.find("checkpoint.prev.h5"), std::string::npos) << previous.text;
-  EXPECT_NE(summary("b")["warnings"].dump().find("checkpoint.prev.h5"), std::string::npos)
-      << "also with --quiet";
+  EXPECT_CONTAINS(previous.text, "checkpoint.prev.h5");
+  EXPECT_CONTAINS(summary("b")["warnings"].dump(), "checkpoint.prev.h5") << "also with --quiet";
   ASSERT_EQ(call(run_words("pair.json", "a", {"--resume"})).code, 0);
   EXPECT_EQ(summary("a")["state_hash"], summary("b")["state_hash"]);
 }
@@ -113,14 +107,14 @@ TEST_F(RunErrors, FoldersThatCannotBeMadeExitWithFour) {
   for (const std::string& out : {std::string("file/run"), std::string("/proc/acinus_run")}) {
     const Outcome outcome = call(run_words("pair.json", out));
     EXPECT_EQ(outcome.code, 4) << outcome.text;
-    EXPECT_NE(outcome.text.find(out), std::string::npos) << outcome.text;
+    EXPECT_CONTAINS(outcome.text, out);
   }
 }
 
 TEST_F(RunErrors, AFullDiskExitsWithFourAndKeepsWhatIsWritten) {
   const Words often{"--set", "output.every=30 s", "--checkpoint-every", "0.000001s"};
   ASSERT_EQ(call(run_words("pair.json", "whole", often)).code, 0);
-  const std::vector<io::Frame> whole = program::read_frames(reader("whole"));
+  const std::vector<io::Frame> whole = read_frames(reader("whole"));
   Words start = run_words("pair.json", "start", often);
   start.insert(start.end(), {"--until", "30 s"});
   ASSERT_EQ(call(start).code, 0);
@@ -135,14 +129,14 @@ TEST_F(RunErrors, AFullDiskExitsWithFourAndKeepsWhatIsWritten) {
     const auto limit = static_cast<rlim_t>(part < 1 ? part * first : first + (part - 1) * later);
     const Outcome outcome = call(run_words("pair.json", run, often), limit);
     EXPECT_EQ(outcome.code, 4) << part << outcome.text;
-    EXPECT_NE(outcome.text.find(run), std::string::npos) << outcome.text;
-    EXPECT_NE(outcome.text.find("Free space"), std::string::npos) << outcome.text;
+    EXPECT_CONTAINS(outcome.text, run);
+    EXPECT_CONTAINS(outcome.text, "Free space");
     const bool saved = fs::exists(path(run) / "checkpoint.h5");
     if (saved) {
-      const std::vector<io::Frame> kept = program::read_frames(reader(run));
+      const std::vector<io::Frame> kept = read_frames(reader(run));
       EXPECT_GT(kept.size(), 0u);
       frames += kept.size();
-      program::expect_first_frames(kept, whole, run);
+      expect_first_frames(kept, whole, run);
       ++with_frames;
     }
     Words again = run_words("pair.json", run, often);
@@ -168,10 +162,10 @@ TEST_F(RunErrors, ARunThatCannotGoOnExitsWithThreeAndNamesTheCell) {
   const Json s = summary("a");
   EXPECT_EQ(s["status"], "failed");
   const std::string cause = s["cause"];
-  EXPECT_NE(outcome.text.find(cause), std::string::npos) << outcome.text;
-  EXPECT_NE(cause.find("DCM cell 0"), std::string::npos) << cause;
-  EXPECT_NE(cause.find("Cells concerned: 0"), std::string::npos) << cause;
-  EXPECT_NE(cause.find("Try"), std::string::npos) << cause;
+  EXPECT_CONTAINS(outcome.text, cause);
+  EXPECT_CONTAINS(cause, "DCM cell 0");
+  EXPECT_CONTAINS(cause, "Cells concerned: 0");
+  EXPECT_CONTAINS(cause, "Try");
   const io::RunReader run = reader("a");
   EXPECT_GT(s["simulated_s"], 0.0);
   EXPECT_EQ(run.time_s(run.n_frame() - 1), s["simulated_s"].get<double>())
@@ -182,9 +176,7 @@ TEST_F(RunErrors, ARunThatCannotGoOnExitsWithThreeAndNamesTheCell) {
   ASSERT_FALSE(events.empty());
   EXPECT_EQ(events.back().code, "cannot_continue");
   EXPECT_EQ(events.back().cell_id, std::vector<std::int64_t>{0});
-  std::ifstream log(path("a/run.log"));
-  const std::string text((std::istreambuf_iterator<char>(log)), std::istreambuf_iterator<char>());
-  EXPECT_NE(text.find("still fails"), std::string::npos) << text;
+  EXPECT_CONTAINS(text("a/run.log"), "still fails");
   EXPECT_EQ(
       call(run_words("pair.json", "a", {crash[0], crash[1], crash[2], crash[3], "--resume"})).code,
       3);
@@ -195,7 +187,7 @@ TEST_F(RunErrors, AHugePullExitsWithThree) {
       "pair.json", "a",
       {"--set", R"(cells.list.0.pull=["1e6 nN", "0 nN", "0 nN"])", "--set", "time.min_step=20 s"}));
   EXPECT_EQ(outcome.code, 3) << outcome.text;
-  EXPECT_NE(outcome.text.find("DCM cell 0 would move"), std::string::npos) << outcome.text;
+  EXPECT_CONTAINS(outcome.text, "DCM cell 0 would move");
   EXPECT_EQ(summary("a")["status"], "failed");
   EXPECT_EQ(reader("a").n_frame(), 1);
 }
@@ -228,9 +220,9 @@ TEST_F(RunErrors, AnOverlapThatContactDoesNotMendStopsTheRun) {
   const Json s = summary("a");
   EXPECT_EQ(s["status"], "failed");
   const std::string cause = s["cause"];
-  EXPECT_NE(cause.find("DCM cells"), std::string::npos) << cause;
-  EXPECT_NE(cause.find("overlap by"), std::string::npos) << cause;
-  EXPECT_NE(cause.find("contact.max_depth"), std::string::npos) << cause;
+  EXPECT_CONTAINS(cause, "DCM cells");
+  EXPECT_CONTAINS(cause, "overlap by");
+  EXPECT_CONTAINS(cause, "contact.max_depth");
   EXPECT_GT(s["simulated_s"], 0.0);
   const auto events = reader("a").events();
   ASSERT_GE(events.size(), 2u);
@@ -250,16 +242,15 @@ TEST_F(RunErrors, AWallThatOverrunsASphereStopsTheRun) {
        R"(walls=[{"name": "ram", "point": ["-12 um", "0 um", "0 um"], "normal": [1, 0, 0],)"
        R"( "speed": "2 um/min", "travel": "30 um"}])"}));
   EXPECT_EQ(outcome.code, 3) << outcome.text;
-  EXPECT_NE(outcome.text.find("CBM cell 0 has its centre"), std::string::npos) << outcome.text;
-  EXPECT_NE(outcome.text.find("inside wall \"ram\""), std::string::npos) << outcome.text;
+  EXPECT_CONTAINS(outcome.text, "CBM cell 0 has its centre");
+  EXPECT_CONTAINS(outcome.text, "inside wall \"ram\"");
 }
 
 TEST_F(RunErrors, CellsPlacedInEachOtherAreCutApart) {
   write("deep.json", kOverlapping);
   const Outcome outcome = call(run_words("deep.json", "a"));
   EXPECT_EQ(outcome.code, 0) << outcome.text;
-  EXPECT_NE(outcome.text.find("2 deformable cells (number 0, 1)"), std::string::npos)
-      << outcome.text;
+  EXPECT_CONTAINS(outcome.text, "2 deformable cells (number 0, 1)");
   EXPECT_TRUE(reader("a").events().empty());
 }
 
@@ -290,7 +281,7 @@ TEST_F(RunErrors, MemoryIsEstimatedBeforeAnythingIsPlacedAndWatchedThen) {
   EXPECT_EQ(outcome.code, 2) << outcome.text;
   for (const char* part :
        {"at least 7.29 GB", "0.5 GB are allowed", "1e+05 cells", "dcm.nodes", "--max-memory"})
-    EXPECT_NE(outcome.text.find(part), std::string::npos) << part << "\n" << outcome.text;
+    EXPECT_CONTAINS(outcome.text, part);
   EXPECT_FALSE(fs::exists(path("a")));
   // An estimate knows nothing of what grows.
   const Outcome stopped = call({"run", "two_cells", "--max-memory", "2MB", "--out", "b"});
@@ -329,7 +320,7 @@ TEST_F(RunErrors, OptionsThatHaveNoEffectAreRefused) {
   for (const auto& [words, part] : all) {
     const Outcome outcome = call(words);
     EXPECT_EQ(outcome.code, 2) << outcome.text;
-    EXPECT_NE(outcome.text.find(part), std::string::npos) << outcome.text;
+    EXPECT_CONTAINS(outcome.text, part);
   }
   expect_refused({"vessels.file=tree.swc", "vessels.radius_array=r"}, {"for VTK files only"});
   expect_refused({"vessels.radius_array=r"}, {"/vessels/radius_array", "/vessels/file"});
@@ -367,10 +358,8 @@ TEST_F(RunErrors, AMeshWithAHoleIsRefused) {
     expect_refused({"static_meshes=[{\"file\": \"" + folder + name + "\", \"unit\": \"1 m\"}]"},
                    {name + ": body 1", "edge"});
   };
-  refused(ACINUS_TEST_DATA "/files/", "open_body.vtk");
-#ifdef ACINUS_REAL_DATA
-  refused(ACINUS_REAL_DATA "/simucell3d/", "young_laplace_test_geom.vtk");
-#endif
+  refused(test::data_path("files/"), "open_body.vtk");
+  if (test::has_real_data()) refused(test::real_path("simucell3d/"), "young_laplace_test_geom.vtk");
 }
 
 TEST_F(RunErrors, WrongValuesAreNamed) {
@@ -391,31 +380,28 @@ TEST_F(RunErrors, CheckCountsWhatItBuilt) {
   write("vessel.swc", "1 0 -60 50 0 4 -1\n2 0 60 50 0 4 1\n");
   const Outcome outcome = call({"check", "pair.json", "--set", "vessels.file=vessel.swc"});
   EXPECT_EQ(outcome.code, 0) << outcome.text;
-  EXPECT_NE(outcome.text.find("1 DCM + 1 CBM cells from list, 120 um of vessels"),
-            std::string::npos)
-      << outcome.text;
+  EXPECT_CONTAINS(outcome.text, "1 DCM + 1 CBM cells from list, 120 um of vessels");
 }
 
 TEST_F(RunErrors, EveryShippedSceneFits) {
   int scenes = 0;
-  for (const auto& entry : fs::directory_iterator(ACINUS_SOURCE_DIR "/runs/scenes")) {
+  for (const auto& entry : fs::directory_iterator(test::source_path("runs/scenes"))) {
     if (entry.path().extension() != ".json") continue;
     const Outcome outcome = call({"check", entry.path().string()});
     EXPECT_EQ(outcome.code, 0) << entry.path() << "\n" << outcome.text;
-    EXPECT_NE(outcome.text.find("valid scene"), std::string::npos) << outcome.text;
+    EXPECT_CONTAINS(outcome.text, "valid scene");
     ++scenes;
   }
   EXPECT_GE(scenes, 7);
   const auto expect_vessels = [this](const std::string& file, const std::string& text) {
-    const Outcome outcome = call({"check", ACINUS_SOURCE_DIR "/runs/scenes/vessel_file.json",
+    const Outcome outcome = call({"check", test::source_path("runs/scenes/vessel_file.json"),
                                   "--set", "vessels.file=" + file});
     EXPECT_EQ(outcome.code, 0) << outcome.text;
-    EXPECT_NE(outcome.text.find(text), std::string::npos) << outcome.text;
+    EXPECT_CONTAINS(outcome.text, text);
   };
-  expect_vessels(ACINUS_TEST_DATA "/files/capillaries.vtk", "640 um of vessels");
-#ifdef ACINUS_REAL_DATA
-  expect_vessels(ACINUS_REAL_DATA "/vascpy/test_smaller_vasculature.vtk", "566 um of vessels");
-#endif
+  expect_vessels(test::data_path("files/capillaries.vtk"), "640 um of vessels");
+  if (test::has_real_data())
+    expect_vessels(test::real_path("vascpy/test_smaller_vasculature.vtk"), "566 um of vessels");
 }
 
 }  // namespace

@@ -10,13 +10,7 @@
 namespace acinus::runs {
 namespace {
 
-using program::Json;
-using program::Outcome;
-using program::Process;
-using program::Words;
-namespace fs = std::filesystem;
-
-class Run : public program::ProgramTest {
+class Run : public ProgramTest {
  protected:
   /// Runs to the end and returns the summary.
   Json finish(const Words& words, const std::string& run) const {
@@ -24,22 +18,10 @@ class Run : public program::ProgramTest {
     EXPECT_EQ(outcome.code, 0) << outcome.text;
     return summary(run);
   }
-  /// The state, the counters and every frame of two runs agree to the last bit.
-  void expect_same(const std::string& a, const std::string& b) const {
-    const Json p = summary(a), q = summary(b);
-    EXPECT_EQ(p["state_hash"], q["state_hash"]) << a << " " << b;
-    EXPECT_EQ(p["steps"], q["steps"]) << a << " " << b;
-    EXPECT_EQ(p["balance"], q["balance"]) << a << " " << b;
-    EXPECT_EQ(p["penetration_um"], q["penetration_um"]) << a << " " << b;
-    const io::RunReader x = reader(a), y = reader(b);
-    EXPECT_EQ(x.n_frame(), y.n_frame());
-    EXPECT_EQ(x.series(), y.series());
-    program::expect_first_frames(program::read_frames(x), program::read_frames(y), a + " " + b);
-  }
 };
 
 TEST_F(Run, LeavesEveryFileAndEveryKeyThatScriptsRelyOn) {
-  write("pair.json", program::kGrowing);
+  write("pair.json", kGrowing);
   const Json s = finish({"run", "pair.json", "--out", "a"}, "a");
   EXPECT_EQ(names_in("a"),
             (std::vector<std::string>{"checkpoint.h5", "run.lock", "run.log", "run.vtkhdf",
@@ -140,14 +122,14 @@ TEST_F(Run, FollowsWhatWallsLetGoOnALogarithmicGrid) {
 }
 
 TEST_F(Run, DoesNotDependOnTheNumberOfThreads) {
-  write("pair.json", program::kGrowing);
+  write("pair.json", kGrowing);
   finish(run_words("pair.json", "one", {"--threads", "1"}), "one");
   finish(run_words("pair.json", "two", {"--threads", "2"}), "two");
   expect_same("one", "two");
 }
 
 TEST_F(Run, CheckpointsAndFramesDoNotChangeIt) {
-  write("pair.json", program::kPair);
+  write("pair.json", kPair);
   finish(run_words("pair.json", "plain"), "plain");
   finish(run_words("pair.json", "saved", {"--checkpoint-every", "0.001s"}), "saved");
   expect_same("plain", "saved");
@@ -155,7 +137,7 @@ TEST_F(Run, CheckpointsAndFramesDoNotChangeIt) {
 }
 
 TEST_F(Run, ToHalfAndResumedIsTheWholeRun) {
-  write("pair.json", program::kPair);
+  write("pair.json", kPair);
   finish(run_words("pair.json", "whole"), "whole");
   const Json half = finish(run_words("pair.json", "parts", {"--until", "4 min"}), "parts");
   EXPECT_EQ(half["simulated_s"], 240.0);
@@ -166,7 +148,7 @@ TEST_F(Run, ToHalfAndResumedIsTheWholeRun) {
 
 // Each place of the file in turn: told on stderr and in the summary, and the end is the same.
 TEST_F(Run, FindsDamageToItsFileWhenItIsResumed) {
-  write("pair.json", program::kPair);
+  write("pair.json", kPair);
   finish(run_words("pair.json", "whole"), "whole");
   finish(run_words("pair.json", "half", {"--until", "4 min"}), "half");
   const std::uintmax_t size = fs::file_size(path("half/run.vtkhdf"));
@@ -184,8 +166,7 @@ TEST_F(Run, FindsDamageToItsFileWhenItIsResumed) {
     Words words = run_words("pair.json", "parts", {"--resume", "--quiet"});
     const Outcome outcome = call(words);
     EXPECT_EQ(outcome.code, 0) << outcome.text;
-    EXPECT_NE(outcome.text.find("not those that were written. Lost: "), std::string::npos)
-        << place << outcome.text;
+    EXPECT_CONTAINS(outcome.text, "not those that were written. Lost: ") << place;
     EXPECT_EQ(summary("parts")["warnings"].size(), 1U);
     EXPECT_EQ(summary("parts")["state_hash"], summary("whole")["state_hash"]);
     EXPECT_TRUE(fs::exists(path("parts/run.vtkhdf.damaged")));
@@ -196,7 +177,7 @@ TEST_F(Run, FindsDamageToItsFileWhenItIsResumed) {
 }
 
 TEST_F(Run, AnEarlierEndAndResumedWithALaterOneIsTheWholeRun) {
-  write("pair.json", program::kPair);
+  write("pair.json", kPair);
   finish(run_words("pair.json", "whole"), "whole");
   finish(run_words("pair.json", "parts", {"--set", "time.end=2 min"}), "parts");
   finish(run_words("pair.json", "parts", {"--resume"}), "parts");
@@ -204,7 +185,7 @@ TEST_F(Run, AnEarlierEndAndResumedWithALaterOneIsTheWholeRun) {
 }
 
 TEST_F(Run, OneStepPerProcessIsTheWholeRun) {
-  write("pair.json", program::kGrowing);
+  write("pair.json", kGrowing);
   finish(run_words("pair.json", "whole"), "whole");
   Words words = run_words("pair.json", "steps");
   const auto call_with_stop = [&] {
@@ -243,15 +224,14 @@ TEST_F(Run, TheWallTimeLimitHoldsWhileTheSceneIsPrepared) {
     const double before = cpu_of_children();
     const Outcome outcome = call(words);
     EXPECT_EQ(outcome.code, 75) << outcome.text;
-    EXPECT_NE(outcome.text.find("stopped by the wall-time limit"), std::string::npos)
-        << outcome.text;
+    EXPECT_CONTAINS(outcome.text, "stopped by the wall-time limit");
     EXPECT_LT(cpu_of_children() - before, 5);  // s
   }
   EXPECT_FALSE(fs::exists(path("p")));
 }
 
 TEST_F(Run, StopsOnSignalsAndOnTheStopFileAndGoesOn) {
-  write("pair.json", program::kPair);
+  write("pair.json", kPair);
   const Words often{"--set", "time.end=16 min", "--set", "output.every=30 s"};
   finish(run_words("pair.json", "whole", often), "whole");
   for (const int signal : {SIGTERM, SIGUSR1, SIGINT}) {
@@ -271,10 +251,8 @@ TEST_F(Run, StopsOnSignalsAndOnTheStopFileAndGoesOn) {
     write(run + "/STOP", "");
     const Outcome stopped = call(again);
     EXPECT_EQ(stopped.code, 75) << stopped.text;
-    EXPECT_NE(stopped.text.find("continue with: acinus run pair.json --resume --out " + run +
-                                " --set 'time.end=16 min'"),
-              std::string::npos)
-        << stopped.text;
+    EXPECT_CONTAINS(stopped.text, "continue with: acinus run pair.json --resume --out " + run +
+                                      " --set 'time.end=16 min'");
     EXPECT_FALSE(fs::exists(path(run + "/STOP"))) << "obeyed once";
     const Outcome last = call(again);
     EXPECT_EQ(last.code, 0) << last.text;
@@ -283,10 +261,10 @@ TEST_F(Run, StopsOnSignalsAndOnTheStopFileAndGoesOn) {
 }
 
 TEST_F(Run, KilledAtAnyMomentKeepsItsFinishedFrames) {
-  write("pair.json", program::kPair);
+  write("pair.json", kPair);
   const Words often{"--set", "output.every=30 s", "--checkpoint-every", "0.03s"};
   finish(run_words("pair.json", "whole", often), "whole");
-  const std::vector<io::Frame> whole = program::read_frames(reader("whole"));
+  const std::vector<io::Frame> whole = read_frames(reader("whole"));
   const double wall = summary("whole")["wall_s"];
   const std::string hash = summary("whole")["state_hash"];
   std::mt19937 random(7);
@@ -304,16 +282,16 @@ TEST_F(Run, KilledAtAnyMomentKeepsItsFinishedFrames) {
     }
     const bool saved = fs::exists(path(run) / "checkpoint.h5");
     if (saved) {
-      const std::vector<io::Frame> part = program::read_frames(reader(run));
-      program::expect_first_frames(part, whole, what);
+      const std::vector<io::Frame> part = read_frames(reader(run));
+      expect_first_frames(part, whole, what);
       frames += part.size();
       ++resumed;
     } else if (fs::exists(path(run) / "run.vtkhdf")) {
       // Killed before the first checkpoint: the file may not be made yet, but what is in it is
       // right.
       try {
-        const std::vector<io::Frame> part = program::read_frames(reader(run));
-        program::expect_first_frames(part, whole, what);
+        const std::vector<io::Frame> part = read_frames(reader(run));
+        expect_first_frames(part, whole, what);
         frames += part.size();
       } catch (const Error& error) {
         EXPECT_EQ(error.code(), Exit::kFileError) << error.what();
@@ -321,9 +299,9 @@ TEST_F(Run, KilledAtAnyMomentKeepsItsFinishedFrames) {
     }
     words.emplace_back(saved ? "--resume" : "--overwrite");
     EXPECT_EQ(finish(words, run)["state_hash"], hash) << what;
-    const std::vector<io::Frame> all = program::read_frames(reader(run));
+    const std::vector<io::Frame> all = read_frames(reader(run));
     EXPECT_EQ(all.size(), whole.size()) << what;
-    program::expect_first_frames(all, whole, what);
+    expect_first_frames(all, whole, what);
     fs::remove_all(path(run));
   }
   std::printf("killed %d of 20, %zu finished frames read, %d resumed from a checkpoint\n", killed,

@@ -52,19 +52,16 @@ TEST(SceneContactErrors, MaugisDugdaleIsForDeformableCellsAlone) {
 TEST(SceneVesselErrors, FlexibleVesselsNeedWhatTheyGoWith) {
   const std::string lobule = R"("lobule": {}, "vessels": {"flexible": true})";
   const std::string start = "/vessels/flexible = true: ";
-  EXPECT_NE(failure(with_block(R"("vessels": {"flexible": true})"))
-                .find(start + "needs vessels: give /vessels/file or a lobule block"),
-            std::string::npos);
-  EXPECT_NE(failure(with_block(lobule), {"life.sleep=true"})
-                .find(start + "goes only where all cells are awake: set /life/sleep to false"),
-            std::string::npos);
-  EXPECT_NE(failure(with_block(lobule), {"vessels.contact=mesh"})
-                .find(start + "goes with cones only, which follow the vessels: set "
-                              "/vessels/contact to \"cones\""),
-            std::string::npos);
-  EXPECT_NE(failure(with_block(R"("lobule": {}, "vessels": {"spacing": "5 um"})"))
-                .find("/vessels/spacing = \"5 um\": is used only with flexible = true"),
-            std::string::npos);
+  EXPECT_CONTAINS(failure(with_block(R"("vessels": {"flexible": true})")),
+                  start + "needs vessels: give /vessels/file or a lobule block");
+  EXPECT_CONTAINS(failure(with_block(lobule), {"life.sleep=true"}),
+                  start + "goes only where all cells are awake: set /life/sleep to false");
+  EXPECT_CONTAINS(failure(with_block(lobule), {"vessels.contact=mesh"}),
+                  start +
+                      "goes with cones only, which follow the vessels: set "
+                      "/vessels/contact to \"cones\"");
+  EXPECT_CONTAINS(failure(with_block(R"("lobule": {}, "vessels": {"spacing": "5 um"})")),
+                  "/vessels/spacing = \"5 um\": is used only with flexible = true");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "runs/scene/json_text.hpp"
 #include "runs/scene/reader.hpp"
+#include "tests/paths.hpp"
 #include "tests/runs/scene_texts.hpp"
 
 namespace acinus::runs {
@@ -39,8 +40,8 @@ TEST(SceneErrors, QuantitiesThatNoTissueHasAreSlipsOfTheUnit) {
                           R"("radius": "2 m")", R"("dcm": {"bulk_modulus": "1e20 Pa"})"}) {
     const std::string text =
         failure(minimal("\"hepatocyte\": {}", fmt::format("\"hepatocyte\": {{{}}}", key)));
-    EXPECT_NE(text.find("is no size of tissue: from 1e-15 to 1e"), std::string::npos) << text;
-    EXPECT_NE(text.find("Check its unit"), std::string::npos) << text;
+    EXPECT_CONTAINS(text, "is no size of tissue: from 1e-15 to 1e");
+    EXPECT_CONTAINS(text, "Check its unit");
   }
 }
 
@@ -121,13 +122,13 @@ TEST(SceneErrors, DepthAndSizeAreLimited) {
   EXPECT_EQ(failure(std::string(100000, '[')), "scene.json:1:65 /: nested deeper than 64 levels");
   std::string deep = "1";
   for (int i = 0; i < 100; ++i) deep = "{\"a\": " + deep + "}";
-  EXPECT_NE(failure(deep).find("nested deeper than 64"), std::string::npos);
+  EXPECT_CONTAINS(failure(deep), "nested deeper than 64");
   std::string names = "{";
   for (int i = 0; i < 10001; ++i) names += "\"k" + std::to_string(i) + "\": 1, ";
-  EXPECT_NE(failure(names).find("more than 10000 names"), std::string::npos);
+  EXPECT_CONTAINS(failure(names), "more than 10000 names");
   std::string values = "{\"walls\": [";
   for (std::size_t i = 0; i <= kMaxValues; ++i) values += "1,";
-  EXPECT_NE(failure(values).find("values in one file"), std::string::npos);
+  EXPECT_CONTAINS(failure(values), "values in one file");
   const std::string message = failure(minimal("\"2 h\"", "\"" + std::string(1 << 20, 'x') + "\""));
   EXPECT_LT(message.size(), 400u);
 }
@@ -139,7 +140,7 @@ TEST(SceneErrors, LongListsOfMistakesAreCut) {
   const std::string message =
       failure(minimal("{\"position\": [\"0 um\", \"0 um\", \"0 um\"]}", list));
   EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 200);
-  EXPECT_NE(message.find("... and 301 more"), std::string::npos);
+  EXPECT_CONTAINS(message, "... and 301 more");
 }
 
 TEST(SceneErrors, Proliferation) {
@@ -149,18 +150,14 @@ TEST(SceneErrors, Proliferation) {
         {R"(cell_types.hepatocyte.cycle.time="24 h")"});
   };
   EXPECT_EQ(faults(R"({"rate": "1 1/h"})", ""), "");
-  EXPECT_NE(faults(R"({"first_layer": 3, "last_layer": 2, "rate": "1 1/h"})", "")
-                .find("/life/proliferation/rates/0/last_layer = 2: must not be below "
-                      "/life/proliferation/rates/0/first_layer = 3"),
-            std::string::npos);
-  EXPECT_NE(faults(R"({"rate": "1 1/h", "from": "2 h", "until": "1 h"})", "")
-                .find("/life/proliferation/rates/0/until = \"1 h\": must be after"),
-            std::string::npos);
-  EXPECT_NE(faults(R"({"rate": "1 1/h"})", R"(, "edge": "start")").find("needs a lobule block"),
-            std::string::npos);
-  EXPECT_NE(
-      failure(with_block(R"("life": {"proliferation": {}})")).find("no cell type has a cycle"),
-      std::string::npos);
+  EXPECT_CONTAINS(faults(R"({"first_layer": 3, "last_layer": 2, "rate": "1 1/h"})", ""),
+                  "/life/proliferation/rates/0/last_layer = 2: must not be below "
+                  "/life/proliferation/rates/0/first_layer = 3");
+  EXPECT_CONTAINS(faults(R"({"rate": "1 1/h", "from": "2 h", "until": "1 h"})", ""),
+                  "/life/proliferation/rates/0/until = \"1 h\": must be after");
+  EXPECT_CONTAINS(faults(R"({"rate": "1 1/h"})", R"(, "edge": "start")"), "needs a lobule block");
+  EXPECT_CONTAINS(failure(with_block(R"("life": {"proliferation": {}})")),
+                  "no cell type has a cycle");
 }
 
 TEST(SceneErrors, RulesOfLife) {
@@ -242,9 +239,8 @@ TEST(SceneErrors, OnlyOneIntegratorFollowsLife) {
               "--set " + integrator + ": /time/integrator = \"" + name +
                   "\": cannot follow cells that grow, divide or die "
                   "(/cell_types/hepatocyte/cycle/time). Choose \"linearly-implicit\"");
-    EXPECT_NE(
-        failure(kMinimal, {integrator, R"(life.rules=[{"do": "die"}])"}).find("(/life/rules/0/do)"),
-        std::string::npos);
+    EXPECT_CONTAINS(failure(kMinimal, {integrator, R"(life.rules=[{"do": "die"}])"}),
+                    "(/life/rules/0/do)");
     EXPECT_EQ(failure(kMinimal, {integrator}), "");
   }
   EXPECT_EQ(failure(growing), "");
@@ -352,7 +348,8 @@ TEST(SceneErrors, RulesBetweenKeys) {
        R"(scene.json:1:37 /walls/1/name = "a": another wall has this name)"},
       {"crop",
        with_block(R"("vessels": {"crop": [["0 um", "3 um", "0 um"], ["1 um", "2 um", "3 um"]], )"
-                  R"("file": ")" ACINUS_TEST_DATA R"(/files/capillaries.vtk"})"),
+                  R"("file": ")" +
+                  test::data_path("files/capillaries.vtk") + R"("})"),
        R"(scene.json:1:33 /vessels/crop/0/1 = "3 um": must be below )"
        R"(/vessels/crop/1/1 = "2 um")"},
       {"half a crop", with_block(R"("vessels": {"crop": [1]})"),

@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "core/error.hpp"
 #include "core/units/units.hpp"
@@ -11,6 +9,7 @@
 #include "runs/scene/reader.hpp"
 #include "runs/scene/schema.hpp"
 #include "runs/scene/shipped_scenes.hpp"
+#include "tests/paths.hpp"
 #include "tests/runs/scene_texts.hpp"
 
 namespace acinus::runs {
@@ -211,7 +210,7 @@ TEST(Scene, ResolvedSceneNamesEveryUnconditionalKey) {
         entry.condition.find("flexible") != std::string::npos)
       continue;
     const std::string name = entry.path.substr(entry.path.rfind('.') + 1);
-    EXPECT_NE(json.find("\"" + name + "\": "), std::string::npos) << entry.path;
+    EXPECT_CONTAINS(json, "\"" + name + "\": ") << entry.path;
   }
 }
 
@@ -269,8 +268,8 @@ TEST(SceneSet, ErrorsNameTheFlag) {
             "--set time.end: must be PATH=VALUE, e.g. --set time.end=\"2 h\"");
   EXPECT_EQ(failure(kMinimal, {"time..end=1"}), "--set time..end=1: the path has an empty name");
   EXPECT_EQ(failure(kMinimal, {"walls=[{]"}).substr(0, 36), "--set walls=[{]: /0: not valid JSON:");
-  EXPECT_NE(failure(kMinimal, {"extends=a.json"}).find("cannot be changed"), std::string::npos);
-  EXPECT_NE(failure(kMinimal, {"name=\xFF"}).find("UTF-8"), std::string::npos);
+  EXPECT_CONTAINS(failure(kMinimal, {"extends=a.json"}), "cannot be changed");
+  EXPECT_CONTAINS(failure(kMinimal, {"name=\xFF"}), "UTF-8");
   // Mistakes of the file come first, then those of the flags.
   const std::string both = failure(minimal("\"2 h\"", "\"2 h\", \"stp\": 1"), {"seed=-1"});
   EXPECT_LT(both.find("scene.json:2:26 /time/stp"), both.find("--set seed=-1: /seed = -1"));
@@ -302,8 +301,7 @@ TEST(SceneExtends, ErrorsNameTheFileTheyStandIn) {
       folder.write("top.json", "{\"extends\": \"base/base.json\",\n\"seed\": 1.5}");
   const std::string message = file_failure(top);
   EXPECT_EQ(message.find(top + ":2:9 /seed = 1.5"), 0u) << message;
-  EXPECT_NE(message.find("\n" + base + ":2:19 /time/end = \"2 kPa\""), std::string::npos)
-      << message;
+  EXPECT_CONTAINS(message, "\n" + base + ":2:19 /time/end = \"2 kPa\"");
 }
 
 TEST(SceneExtends, CirclesAndMissingFilesAreRefused) {
@@ -313,12 +311,10 @@ TEST(SceneExtends, CirclesAndMissingFilesAreRefused) {
   EXPECT_EQ(file_failure(a), b + ":1:13 /extends = \"./a.json\": the files extend each other in a "
                                  "circle");
   const std::string self = folder.write("self.json", R"({"extends": "self.json"})");
-  EXPECT_NE(file_failure(self).find("circle"), std::string::npos);
+  EXPECT_CONTAINS(file_failure(self), "circle");
   const std::string lost = folder.write("lost.json", R"({"extends": "no.json"})");
-  EXPECT_NE(file_failure(lost).find(":1:13 /extends = \"no.json\": no such file: "),
-            std::string::npos);
-  EXPECT_NE(file_failure(folder.write("n.json", R"({"extends": 3})")).find("must be the path"),
-            std::string::npos);
+  EXPECT_CONTAINS(file_failure(lost), ":1:13 /extends = \"no.json\": no such file: ");
+  EXPECT_CONTAINS(file_failure(folder.write("n.json", R"({"extends": 3})")), "must be the path");
 }
 
 TEST(SceneFiles, PathsStartInTheFolderOfTheirSource) {
@@ -350,14 +346,8 @@ TEST(SceneFiles, PathsStartInTheFolderOfTheirSource) {
 }
 
 TEST(SceneFiles, UnreadableFilesAreFileErrors) {
-  for (const std::string path : {"/no/such/file.json", "/tmp", "/dev/null"}) {
-    try {
-      read_scene(path);
-      FAIL() << path;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), Exit::kFileError) << path;
-    }
-  }
+  for (const std::string path : {"/no/such/file.json", "/tmp", "/dev/null"})
+    test::message_of([&] { read_scene(path); }, Exit::kFileError);
 }
 
 TEST(Registry, EntriesAreCompleteAndUnique) {
@@ -382,37 +372,29 @@ TEST(Explain, FindsKeysByPathShortPathAndName) {
   EXPECT_EQ(text.find("cell_types.<name>.radius\n"), 0u);
   for (const char* part :
        {"a length", "unit     um", "default  \"12 um\"", "range    > 0 um", "paper    R_c"}) {
-    EXPECT_NE(text.find(part), std::string::npos) << part;
+    EXPECT_CONTAINS(text, part);
   }
   EXPECT_EQ(explain_key("/cell_types/hepatocyte/radius"), text);
   EXPECT_EQ(explain_key("cell_types.<name>.radius"), text);
-  EXPECT_NE(explain_key("viscosity").find("friction.viscosity"), std::string::npos);
+  EXPECT_CONTAINS(explain_key("viscosity"), "friction.viscosity");
   EXPECT_NE(explain_key("/cells/list/3/position").find("cells.list.<number>.position"), 0u - 1);
-  try {
-    explain_key("cell.raduis");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "no scene key \"cell.raduis\". Did you mean \"cell.radius\"? `acinus explain` lists "
-              "all");
-  }
+  EXPECT_EQ(test::message_of([] { explain_key("cell.raduis"); }),
+            "no scene key \"cell.raduis\". Did you mean \"cell.radius\"? `acinus explain` lists "
+            "all");
   for (const char* query : {"", ".", "///", "<", "\x01"}) EXPECT_THROW(explain_key(query), Error);
 }
 
 TEST(Explain, MarkdownPageIsUpToDate) {
-  std::ifstream file(ACINUS_SOURCE_DIR "/docs/scene_keys.md");
-  std::stringstream page;
-  page << file.rdbuf();
-  EXPECT_EQ(page.str(), explain_markdown())
+  EXPECT_EQ(io::read_text_file(test::source_path("docs/scene_keys.md")), explain_markdown())
       << "docs/scene_keys.md is stale: acinus explain --markdown > docs/scene_keys.md";
 }
 
 TEST(Schema, KnowsEveryKey) {
   const std::string schema = scene_schema();
-  EXPECT_NE(schema.find("https://json-schema.org/draft/2020-12/schema"), std::string::npos);
+  EXPECT_CONTAINS(schema, "https://json-schema.org/draft/2020-12/schema");
   for (const Entry& entry : all_entries()) {
     const std::string name = entry.path.substr(entry.path.rfind('.') + 1);
-    EXPECT_NE(schema.find("\"" + name + "\": {"), std::string::npos) << entry.path;
+    EXPECT_CONTAINS(schema, "\"" + name + "\": {") << entry.path;
   }
 }
 
@@ -475,7 +457,7 @@ TEST(ShippedScenes, EveryModelCanBeChosenFromOutside) {
                            read.experiment == Experiment::kPlates ||
                            read.experiment == Experiment::kPullOff;
       if (std::string(model) == "cbm" && deforms) {
-        EXPECT_NE(file_failure(scene.file, set).find("is for deformable cells"), std::string::npos);
+        EXPECT_CONTAINS(file_failure(scene.file, set), "is for deformable cells");
         continue;
       }
       EXPECT_NO_THROW(EXPECT_EQ(name_of_choice(read_scene(scene.file, set).cells.model), model))

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "io/disk.hpp"
 #include "runs/scene/reader.hpp"
+#include "tests/messages.hpp"
 
 namespace acinus::runs::scene_texts {
 namespace fs = std::filesystem;
@@ -80,12 +81,7 @@ inline constexpr const char* kFull = R"({
 })";
 
 inline std::string failure(const std::string& text, const std::vector<std::string>& set = {}) {
-  try {
-    parse_scene(text, "scene.json", ".", set);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return test::fault_of([&] { parse_scene(text, "scene.json", ".", set); });
 }
 
 inline std::string changed(std::string text, const std::string& from, const std::string& to) {
@@ -120,12 +116,7 @@ class TemporaryFolder {
 };
 
 inline std::string file_failure(const std::string& file, const std::vector<std::string>& set = {}) {
-  try {
-    read_scene(file, set);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return test::fault_of([&] { read_scene(file, set); });
 }
 
 }  // namespace acinus::runs::scene_texts

@@ -70,9 +70,7 @@ TEST(SceneZoomErrors, MovingRegionsNeedAMovingZoom) {
                                 "cells": [1], "max_distance": "30 um"}}]})")),
             "/life/rules/0/region/kind = \"cells\": moves with the tissue, which only regions of "
             "/zoom can do. Choose sphere, box, half_space, axis_distance or all");
-  EXPECT_NE(complaint(zoomed("")).find("/moving_zoom = {}: has no region to follow"),
-            std::string::npos)
-      << complaint(zoomed(""));
+  EXPECT_CONTAINS(complaint(zoomed("")), "/moving_zoom = {}: has no region to follow");
 }
 
 TEST(SceneZoomErrors, OtherIntegratorsDoNotFollow) {

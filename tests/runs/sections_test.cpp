@@ -17,7 +17,7 @@ namespace acinus::runs {
 namespace {
 
 /// Round-off of lengths of up to some hundred micrometres.
-constexpr double kRoundOff = 1e-11;
+constexpr double kCutRoundOff = 1e-11;
 
 /// A closed box, 12 triangles.
 struct Brick {
@@ -51,8 +51,8 @@ TEST(Sections, ChordsOfABallAreThoseOfItsCircle) {
   const std::vector<Chord> chords =
       compute_chords(sections[0].outline[0], Vec2(0, 0), Vec2::UnitX());
   ASSERT_EQ(chords.size(), 1U);
-  EXPECT_NEAR(chords[0][0], 5 - std::sqrt(143), kRoundOff);
-  EXPECT_NEAR(chords[0][1], 5 + std::sqrt(143), kRoundOff);
+  EXPECT_NEAR(chords[0][0], 5 - std::sqrt(143), kCutRoundOff);
+  EXPECT_NEAR(chords[0][1], 5 + std::sqrt(143), kCutRoundOff);
   EXPECT_TRUE(compute_chords(sections[0].outline[0], Vec2(0, 13.1), Vec2::UnitX()).empty());
 }
 
@@ -83,7 +83,7 @@ TEST(Sections, LinesThroughNodesAndAlongEdgesStillCloseTheirChords) {
     for (const Section& section : s)
       for (const Outline& o : section.outline)
         for (const Chord& c : compute_chords(o, Vec2(0, y), Vec2::UnitX()))
-          EXPECT_NEAR(c[1] - c[0], 20, kRoundOff) << y << " at " << section.z;
+          EXPECT_NEAR(c[1] - c[0], 20, kCutRoundOff) << y << " at " << section.z;
 }
 
 TEST(Sections, PiecesThatTouchAreOne) {
@@ -94,7 +94,7 @@ TEST(Sections, PiecesThatTouchAreOne) {
     return covered_pieces(s, Vec2(0, 0), Vec2::UnitX(), join);
   };
   ASSERT_EQ(pieces(0).size(), 2U);
-  EXPECT_NEAR(pieces(0)[0][1], 29, kRoundOff);
+  EXPECT_NEAR(pieces(0)[0][1], 29, kCutRoundOff);
   EXPECT_EQ(pieces(2.1).size(), 1U) << "the gap is 2 um";
 }
 
@@ -103,7 +103,7 @@ TEST(OpenArea, OfACellInsideIsLessByItsVolumeOverTheHeight) {
   const LesionGrid grid = make_lesion_grid(lobule, 120, {});
   const double all = measure_opening(grid, make_sections({}, {}, grid.height)).area;
   // The midpoint rule is exact for an area that is linear in the radius.
-  EXPECT_NEAR(all, kPi / 6 * (120 * 120 - 100), kRoundOff * all);
+  EXPECT_NEAR(all, kPi / 6 * (120 * 120 - 100), kCutRoundOff * all);
   const Ball ball{Vec3(70, 5, 30), 12};
   const double less = all - measure_opening(grid, make_sections({}, {&ball, 1}, grid.height)).area;
   // About 6 slices, 19 rays and 12 points a ray hit it; a cell of the grid at its rim is right or
@@ -141,7 +141,7 @@ TEST(OpenArea, FrontOfAFlatWallOfCells) {
 TEST(OpenArea, RaysThatMeetNothingEndOneDiameterBeyond) {
   const LesionGrid grid = make_lesion_grid(pie(), 80, {});
   const Opening o = measure_opening(grid, make_sections({}, {}, grid.height));
-  EXPECT_NEAR(o.front, 104, kRoundOff);
+  EXPECT_NEAR(o.front, 104, kCutRoundOff);
   EXPECT_NEAR(o.roughness, 0, 1e-5);
   EXPECT_NEAR(o.seen, o.area, 1e-9);
 }
@@ -214,8 +214,8 @@ TEST(Plates, DistanceFromChosenVessels) {
   n.radius = {{4, 4}, {10, 10}};
   const std::vector<Vec3> points{Vec3(12, 0, 10), Vec3(0, 9, 30)};
   const std::vector<std::uint8_t> thin{1, 0}, both{1, 1}, none{0, 0};
-  EXPECT_NEAR(mean_distance(points, n, thin), (8 + 5) / 2.0, kRoundOff);
-  EXPECT_NEAR(mean_distance(points, n, both), (-2 + 5) / 2.0, kRoundOff);
+  EXPECT_NEAR(mean_distance(points, n, thin), (8 + 5) / 2.0, kCutRoundOff);
+  EXPECT_NEAR(mean_distance(points, n, both), (-2 + 5) / 2.0, kCutRoundOff);
   EXPECT_EQ(mean_distance(points, n, none), 0);
   EXPECT_EQ(mean_distance({}, n, both), 0);
 }

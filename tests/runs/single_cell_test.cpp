@@ -16,7 +16,7 @@ namespace acinus::runs {
 namespace {
 
 /// One deformable cell of 12 um at the origin, and what a frame of it measures.
-struct Watched {
+struct WatchedCell {
   Scene scene{};
   coupling::World world = coupling::make_test_world({{Vec3::Zero(), true}}, 60, 642);
   coupling::Workspace work{};
@@ -41,7 +41,7 @@ contact::Pipette hole(double start, double length) {
 }
 
 TEST(Plates, MeasureGapForceAndArea) {
-  Watched w;
+  WatchedCell w;
   contact::Plane low, high;
   low.point = Vec3(0, 0, -11.5);
   high.point = Vec3(0, 0, 11.5);
@@ -79,7 +79,7 @@ TEST(Aspiration, ClosedFormHasItsLimits) {
 }
 
 TEST(Aspiration, MeasuresTheLengthBeyondTheMouth) {
-  Watched w;
+  WatchedCell w;
   coupling::Suction suction;
   suction.mouth = Vec3(0, 0, 9);
   suction.reach = 6;
@@ -108,7 +108,7 @@ TEST(Aspiration, CriticalPressureIsWhereTheLengthIsRadiusAndLip) {
 }
 
 TEST(NarrowGap, MeasuresWhereTheCellIs) {
-  Watched w;
+  WatchedCell w;
   w.world.params.boundary.pipettes = {hole(-5, 10)};
   Measures m = w.look(Experiment::kNarrowGap);
   EXPECT_NEAR(m["position_um"][0], 5, 1e-12);

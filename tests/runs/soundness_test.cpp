@@ -9,6 +9,7 @@
 #include "runs/experiments/snapshot.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/session/make_frame.hpp"
+#include "tests/messages.hpp"
 #include "tests/reference/brick.hpp"
 
 namespace acinus::runs {
@@ -78,7 +79,7 @@ TEST(Soundness, ANucleusOutsideItsCortexIsFound) {
   const Excess leak = find();
   // Faces of 162 nodes stand up to 4 % inside the sphere, nodes 2 % outside.
   EXPECT_NEAR(leak.depth_um, 5 - 0.75, 0.5);
-  EXPECT_NE(leak.cause.find("the nucleus of DCM cell 0 stands"), std::string::npos) << leak.cause;
+  EXPECT_CONTAINS(leak.cause, "the nucleus of DCM cell 0 stands");
   EXPECT_EQ(leak.cells, std::vector<std::int64_t>{0});
 }
 

@@ -5,16 +5,7 @@
 namespace acinus::runs {
 namespace {
 
-using program::Outcome;
-using program::Words;
-
-class StartOverlap : public program::ProgramTest {
- protected:
-  std::string text(const std::string& name) const {
-    std::ifstream file(path(name));
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-};
+using StartOverlap = ProgramTest;
 
 /// A clump of cells anywhere in their cycle, so up to a quarter wider than their places.
 constexpr const char* kAnyAge = R"({
@@ -28,13 +19,13 @@ constexpr const char* kAnyAge = R"({
 TEST_F(StartOverlap, IsAWarningWithAdviceThatWorks) {
   write("any_age.json", kAnyAge);
   const Outcome outcome = call(run_words("any_age.json", "a"));
-  EXPECT_NE(outcome.text.find("acinus: warning"), std::string::npos) << "also with --quiet";
+  EXPECT_CONTAINS(outcome.text, "acinus: warning") << "also with --quiet";
   for (const std::string& told :
        {outcome.text, text("a/run.log"), summary("a")["warnings"].dump()}) {
     for (const char* part :
          {"starts with overlaps: ", "start_up.enabled", "cycle.start = birth", "cells.spacing"})
-      EXPECT_NE(told.find(part), std::string::npos) << part << "\n" << told;
-    EXPECT_EQ(told.find("cells.count"), std::string::npos)
+      EXPECT_CONTAINS(told, part);
+    EXPECT_FALSE(test::contains(told, "cells.count"))
         << "fewer cells of a clump are no farther apart\n"
         << told;
   }
@@ -42,7 +33,7 @@ TEST_F(StartOverlap, IsAWarningWithAdviceThatWorks) {
        {"start_up.enabled=true", "cell_types.tumour.cycle.start=birth", "cells.spacing=1.26"}) {
     const Outcome better = call(run_words("any_age.json", "b", {"--overwrite", "--set", advice}));
     EXPECT_EQ(better.code, 0) << advice << "\n" << better.text;
-    EXPECT_EQ(better.text.find("warning"), std::string::npos) << advice << "\n" << better.text;
+    EXPECT_FALSE(test::contains(better.text, "warning")) << advice << "\n" << better.text;
   }
 }
 
@@ -58,16 +49,15 @@ constexpr const char* kFilled = R"({
 TEST_F(StartOverlap, AdviceFollowsHowCellsArePlaced) {
   write("filled.json", kFilled);
   const Outcome outcome = call(run_words("filled.json", "a"));
-  EXPECT_NE(outcome.text.find("cells.count, cells.min_distance"), std::string::npos)
-      << outcome.text;
-  EXPECT_EQ(outcome.text.find("cycle.start"), std::string::npos) << outcome.text;
+  EXPECT_CONTAINS(outcome.text, "cells.count, cells.min_distance");
+  EXPECT_FALSE(test::contains(outcome.text, "cycle.start")) << outcome.text;
   for (const Words& advice : {Words{"--set", "cells.count=2", "--set", "cells.min_distance=22 um"},
                               Words{"--set", "cell_types.hepatocyte.radius=7 um"}}) {
     Words words = run_words("filled.json", "b", advice);
     words.emplace_back("--overwrite");
     const Outcome better = call(words);
     EXPECT_EQ(better.code, 0) << better.text;
-    EXPECT_EQ(better.text.find("warning"), std::string::npos) << advice[1] << "\n" << better.text;
+    EXPECT_FALSE(test::contains(better.text, "warning")) << advice[1] << "\n" << better.text;
   }
 }
 

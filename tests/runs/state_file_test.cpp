@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "io/checkpoint.hpp"
 #include "tests/coupling/worlds.hpp"
+#include "tests/messages.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -136,7 +137,7 @@ TEST(StateFile, RefusesArraysThatAreMissingOrOfAnotherLength) {
         get_state(data, kTypes, state);
         ADD_FAILURE() << damaged << (missing ? " is missing" : " is too short");
       } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find(damaged), std::string::npos) << error.what();
+        EXPECT_CONTAINS(std::string(error.what()), damaged) << error.what();
       }
     }
 }

@@ -107,7 +107,7 @@ TEST_F(Claims, WhatNeverHappensIsLaterThanTheRun) {
   const std::string never = R"("kind": "first_above", "variant": "slow", "level": "9 um")";
   Verdict v = checked(never, R"("high": "1 h")");
   EXPECT_EQ(v.status, ClaimStatus::kDoesNotHold);
-  EXPECT_NE(v.measured.note.find("never"), std::string::npos);
+  EXPECT_CONTAINS(v.measured.note, "never");
   EXPECT_EQ(checked(never, R"("low": "2 h")").status, ClaimStatus::kHolds);
   EXPECT_EQ(checked(never, R"("low": "3 h")").status, ClaimStatus::kNotMeasured)
       << "the runs say nothing about what comes after two hours";
@@ -118,7 +118,7 @@ TEST_F(Claims, OneSeedInWhichSomethingNeverHappensDoesNotDecideForAll) {
   Verdict v = checked(R"("kind": "first_above", "variant": "slow", "level": "3.5 um")",
                       R"("low": "30 min", "every_seed": true)");
   EXPECT_TRUE(std::isinf(v.measured.high.value()));
-  EXPECT_NE(v.measured.note.find("1 of 2 seeds never"), std::string::npos) << v.measured.note;
+  EXPECT_CONTAINS(v.measured.note, "1 of 2 seeds never");
   // A ratio with what never happens is no ratio; zero it is not.
   const std::string never =
       R"({ "kind": "first_above", "observable": "overlap_cbm_cbm_um", "variant": "slow", "level": "9 um" })";
@@ -231,8 +231,8 @@ TEST_F(Claims, FiguresAreMadeOfPlots) {
   EXPECT_EQ(write_plots(p, data(), folder.path().string()),
             (std::vector<std::string>{"m.svg", "f.svg"}));
   const std::string svg = io::read_text_file(folder.path().string() + "/plots/f.svg");
-  EXPECT_NE(svg.find("a: m"), std::string::npos);
-  EXPECT_NE(svg.find("b: m"), std::string::npos);
+  EXPECT_CONTAINS(svg, "a: m");
+  EXPECT_CONTAINS(svg, "b: m");
   expect_fault(text_with(plots + R"("figures": [ { "name": "m", "plots": ["n"] } ])"),
                {"/figures/0/name", "another plot or figure", "/figures/0/plots/0", "unknown plot"});
 }
@@ -308,7 +308,7 @@ TEST_F(Claims, VerdictsAreJsonWithoutNaN) {
     EXPECT_TRUE(j[0].contains(key)) << key;
   EXPECT_TRUE(j[0]["measured"].is_null());
   EXPECT_TRUE(j[0]["pass"].is_null());
-  EXPECT_NE(j[0]["note"].get<std::string>().find("slow/seed_1 failed"), std::string::npos);
+  EXPECT_CONTAINS(j[0]["note"].get<std::string>(), "slow/seed_1 failed");
 }
 
 }  // namespace

@@ -8,12 +8,6 @@
 namespace acinus::runs {
 namespace {
 
-using program::Json;
-using program::Outcome;
-using program::Process;
-using program::Words;
-namespace fs = std::filesystem;
-
 /// Two variants with two seeds each of a pair of spheres.
 constexpr const char* kPairs = R"({
   "name": "pairs",
@@ -46,9 +40,9 @@ constexpr const char* kShared = R"({
   "observables": ["overlap_dcm_dcm_um"]
 })";
 
-class StudyRun : public program::ProgramTest {
+class StudyProgram : public ProgramTest {
  protected:
-  StudyRun() {
+  StudyProgram() {
     write("pairs.json", kPairs);
     write("shared.json", kShared);
   }
@@ -57,11 +51,6 @@ class StudyRun : public program::ProgramTest {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
-  std::string text(const std::string& name) const {
-    std::ifstream file(path(name), std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-  Json json(const std::string& name) const { return Json::parse(text(name)); }
   void expect_done(const Outcome& outcome) const { EXPECT_EQ(outcome.code, 0) << outcome.text; }
   void expect_same_tables(const std::string& a, const std::string& b) const {
     EXPECT_FALSE(text(a + "/table.csv").empty());
@@ -85,11 +74,7 @@ pid_t child_of(pid_t parent) {
   return child;
 }
 
-bool has(const Outcome& outcome, const std::string& part) {
-  return outcome.text.find(part) != std::string::npos;
-}
-
-TEST_F(StudyRun, TwoAtOnceWriteTheSameTableAsOne) {
+TEST_F(StudyProgram, TwoAtOnceWriteTheSameTableAsOne) {
   expect_done(call(words("pairs.json", "one")));
   Words two = words("pairs.json", "two");
   std::ranges::replace(two, "1", "2");
@@ -97,27 +82,27 @@ TEST_F(StudyRun, TwoAtOnceWriteTheSameTableAsOne) {
   expect_same_tables("one", "two");
   // 4 runs, 2 observables, 11 frames, and the head
   EXPECT_EQ(std::ranges::count(text("one/table.csv"), '\n'), 4 * 2 * 11 + 1);
-  EXPECT_EQ(text("one/table.csv").find("nan"), std::string::npos);
+  EXPECT_FALSE(test::contains(text("one/table.csv"), "nan"));
   for (const char* file :
        {"report.md", "runs.csv", "verdicts.json", "plots/overlap_cbm_cbm_um.svg"})
     EXPECT_TRUE(fs::exists(path("one") / file)) << file;
   EXPECT_EQ(json("one/verdicts.json")[0]["pass"], true);
 }
 
-TEST_F(StudyRun, FinishedRunsAreNotRunAgain) {
+TEST_F(StudyProgram, FinishedRunsAreNotRunAgain) {
   expect_done(call(words("pairs.json", "s")));
   const Json before = summary("s/runs/slow/seed_1");
   expect_done(call(words("pairs.json", "s")));
   EXPECT_EQ(summary("s/runs/slow/seed_1"), before) << "with the same wall time";
   const Outcome list = call(words("pairs.json", "s", {"--dry-run"}));
-  EXPECT_TRUE(has(list, "4 runs, 0 left")) << list.text;
+  EXPECT_CONTAINS(list.text, "4 runs, 0 left");
   fs::remove_all(path("s/runs/fast/seed_2"));
-  EXPECT_TRUE(has(call(words("pairs.json", "s", {"--dry-run"})), "runs of this variant"));
+  EXPECT_CONTAINS(call(words("pairs.json", "s", {"--dry-run"})).text, "runs of this variant");
   expect_done(call(words("pairs.json", "s", {"--only", "slow"})));
   EXPECT_FALSE(fs::exists(path("s/runs/fast/seed_2")));
 }
 
-TEST_F(StudyRun, DescriptionsAndKeysYoungerThanARunMakeNoOtherScene) {
+TEST_F(StudyProgram, DescriptionsAndKeysYoungerThanARunMakeNoOtherScene) {
   expect_done(call(words("pairs.json", "s")));
   // As a run of a program without motility.directions, and of a scene with another description.
   const std::string run = "s/runs/slow/seed_1";
@@ -127,54 +112,54 @@ TEST_F(StudyRun, DescriptionsAndKeysYoungerThanARunMakeNoOtherScene) {
   record["identity"] = "of a scene with other texts";
   write(run + "/scene.json", scene.dump());
   write(run + "/study_run.json", record.dump());
-  EXPECT_TRUE(has(call(words("pairs.json", "s", {"--dry-run"})), "4 runs, 0 left"));
+  EXPECT_CONTAINS(call(words("pairs.json", "s", {"--dry-run"})).text, "4 runs, 0 left");
   scene["motility"]["grid"] = "61 s";
   write(run + "/scene.json", scene.dump());
-  EXPECT_TRUE(has(call(words("pairs.json", "s", {"--dry-run"})), "of another scene or version"));
+  EXPECT_CONTAINS(call(words("pairs.json", "s", {"--dry-run"})).text,
+                  "of another scene or version");
 }
 
-TEST_F(StudyRun, RefusesWhatIsInTheWay) {
+TEST_F(StudyProgram, RefusesWhatIsInTheWay) {
   write("other.json", std::string(kPairs).replace(std::string(kPairs).find("pairs"), 5, "other"));
   expect_done(call(words("pairs.json", "s", {"--only", "slow"})));
   Outcome o = call(words("other.json", "s"));
   EXPECT_EQ(o.code, 2);
-  EXPECT_TRUE(has(o, "holds the study \"pairs\", not \"other\"")) << o.text;
+  EXPECT_CONTAINS(o.text, "holds the study \"pairs\", not \"other\"");
   fs::create_directories(path("else/where"));
   o = call(words("pairs.json", "else"));
   EXPECT_EQ(o.code, 2);
-  EXPECT_TRUE(has(o, "holds something that is no study")) << o.text;
+  EXPECT_CONTAINS(o.text, "holds something that is no study");
   write("changed.json",
         std::string(kPairs).replace(std::string(kPairs).find("20 min"), 6, "16 min"));
   o = call(words("changed.json", "s"));
   EXPECT_EQ(o.code, 2);
-  EXPECT_TRUE(has(o, "s/runs/slow/seed_1")) << o.text;
-  EXPECT_TRUE(has(o, "--overwrite")) << o.text;
+  EXPECT_CONTAINS(o.text, "s/runs/slow/seed_1");
+  EXPECT_CONTAINS(o.text, "--overwrite");
   expect_done(call(words("changed.json", "s", {"--overwrite"})));
   EXPECT_EQ(summary("s/runs/slow/seed_1")["simulated_s"], 960.0);
   write("typo.json", std::string(kPairs).replace(std::string(kPairs).find("\"divisions\""), 11,
                                                  "\"divisoins\""));
   o = call(words("typo.json", "new"));
   EXPECT_EQ(o.code, 2);
-  EXPECT_TRUE(has(o, "typo.json:10:41 /observables/1 = \"divisoins\": unknown observable"))
-      << o.text;
+  EXPECT_CONTAINS(o.text, "typo.json:10:41 /observables/1 = \"divisoins\": unknown observable");
   EXPECT_FALSE(fs::exists(path("new"))) << "before anything runs";
 }
 
-TEST_F(StudyRun, AFailedRunIsReportedAndStopsNothing) {
+TEST_F(StudyProgram, AFailedRunIsReportedAndStopsNothing) {
   std::string broken = kPairs;
   broken.replace(broken.find("\"motility.grid\": \"30 s\""), 23,
                  R"("cells.list.0.pull": ["1e6 nN", "0 nN", "0 nN"], "time.min_step": "20 s")");
   write("broken.json", broken);
   const Outcome o = call(words("broken.json", "s"));
   EXPECT_EQ(o.code, 3) << o.text;
-  EXPECT_TRUE(has(o, "fast/seed_1 failed: ")) << o.text;
+  EXPECT_CONTAINS(o.text, "fast/seed_1 failed: ");
   EXPECT_EQ(summary("s/runs/slow/seed_2")["status"], "completed");
   EXPECT_EQ(json("s/verdicts.json")[0]["verdict"], "not measured");
-  EXPECT_NE(text("s/report.md").find("| fast/seed_2 | failed |"), std::string::npos);
-  EXPECT_NE(text("s/runs.csv").find("fast/seed_1,fast,1,failed"), std::string::npos);
+  EXPECT_CONTAINS(text("s/report.md"), "| fast/seed_2 | failed |");
+  EXPECT_CONTAINS(text("s/runs.csv"), "fast/seed_1,fast,1,failed");
 }
 
-TEST_F(StudyRun, ARefusedRunIsReportedWithItsWholeCause) {
+TEST_F(StudyProgram, ARefusedRunIsReportedWithItsWholeCause) {
   const std::string near =
       R"([{"position": ["0 um", "0 um", "0 um"]}, {"position": ["1 um", "0 um", "0 um"]}])";
   std::string refused = kPairs;
@@ -183,21 +168,21 @@ TEST_F(StudyRun, ARefusedRunIsReportedWithItsWholeCause) {
   const Outcome o = call(words("refused.json", "s"));
   EXPECT_EQ(o.code, 3) << o.text;
   for (const std::string& told : {o.text, text("s/report.md"), text("s/runs.csv")}) {
-    EXPECT_NE(told.find("start 1 um apart"), std::string::npos) << told;
-    EXPECT_NE(told.find("Move these cells"), std::string::npos) << told;
+    EXPECT_CONTAINS(told, "start 1 um apart");
+    EXPECT_CONTAINS(told, "Move these cells");
   }
-  EXPECT_NE(text("s/report.md").find("| fast/seed_1 | refused | - | "), std::string::npos);
-  EXPECT_NE(text("s/runs.csv").find("fast/seed_2,fast,2,refused,"), std::string::npos);
+  EXPECT_CONTAINS(text("s/report.md"), "| fast/seed_1 | refused | - | ");
+  EXPECT_CONTAINS(text("s/runs.csv"), "fast/seed_2,fast,2,refused,");
   EXPECT_EQ(std::ranges::count(text("s/runs.csv"), '\n'), 5) << "one line a run";
-  EXPECT_TRUE(has(o, "2 runs done, 2 failed, 0 missing")) << o.text;
+  EXPECT_CONTAINS(o.text, "2 runs done, 2 failed, 0 missing");
   EXPECT_EQ(json("s/verdicts.json")[0]["note"], "fast/seed_1 refused, fast/seed_2 refused");
   const Outcome list = call(words("refused.json", "s", {"--dry-run"}));
-  EXPECT_TRUE(has(list, "refused")) << list.text;
+  EXPECT_CONTAINS(list.text, "refused");
   // It is tried again, without being asked to.
-  EXPECT_TRUE(has(call(words("refused.json", "s")), "start 1 um apart"));
+  EXPECT_CONTAINS(call(words("refused.json", "s")).text, "start 1 um apart");
 }
 
-TEST_F(StudyRun, WhatWaitsForAStartThatFailedNamesTheFirstCause) {
+TEST_F(StudyProgram, WhatWaitsForAStartThatFailedNamesTheFirstCause) {
   std::string shared = kShared;
   const std::string before = "\"start_up.enabled\": true";
   shared.insert(shared.find(before), R"("walls": [{"point": ["0 um", "0 um", "2 um"]}], )");
@@ -209,13 +194,13 @@ TEST_F(StudyRun, WhatWaitsForAStartThatFailedNamesTheFirstCause) {
       const std::size_t at = told.find(run);
       ASSERT_NE(at, std::string::npos) << told;
       const std::string rest = told.substr(at, 400);
-      EXPECT_NE(rest.find("from whose start it goes on, left none: "), std::string::npos) << told;
-      EXPECT_NE(rest.find("inside wall"), std::string::npos) << told;
+      EXPECT_CONTAINS(rest, "from whose start it goes on, left none: ") << told;
+      EXPECT_CONTAINS(rest, "inside wall") << told;
     }
-  EXPECT_EQ(text("s/runs.csv").find("to do"), std::string::npos) << text("s/runs.csv");
+  EXPECT_FALSE(test::contains(text("s/runs.csv"), "to do")) << text("s/runs.csv");
 }
 
-TEST_F(StudyRun, ARunThatWasKilledBeforeItsFirstCheckpointSaysSo) {
+TEST_F(StudyProgram, ARunThatWasKilledBeforeItsFirstCheckpointSaysSo) {
   std::string slow = kPairs;
   slow.replace(slow.find("20 min"), 6, "900 d");
   write("slow.json", slow);
@@ -226,11 +211,10 @@ TEST_F(StudyRun, ARunThatWasKilledBeforeItsFirstCheckpointSaysSo) {
   ASSERT_TRUE(study.await("slow/seed_1 failed: ended by signal 9"));
   study.send(SIGTERM);
   study.wait();
-  EXPECT_NE(text("s/runs.csv").find("slow/seed_1,slow,1,killed,"), std::string::npos)
-      << text("s/runs.csv");
+  EXPECT_CONTAINS(text("s/runs.csv"), "slow/seed_1,slow,1,killed,");
 }
 
-TEST_F(StudyRun, OptionsWithoutEffectAreRefused) {
+TEST_F(StudyProgram, OptionsWithoutEffectAreRefused) {
   expect_done(call(words("pairs.json", "s", {"--only", "slow"})));
   for (const Words& more : {Words{"--dry-run", "--overwrite"},
                             {"--dry-run", "--quiet"},
@@ -241,21 +225,21 @@ TEST_F(StudyRun, OptionsWithoutEffectAreRefused) {
   expect_done(call({"study", "pairs.json", "--out", "s", "--report"}));
 }
 
-TEST_F(StudyRun, NamesThatAreNotUtf8AreRefusedBeforeAnythingIsMade) {
+TEST_F(StudyProgram, NamesThatAreNotUtf8AreRefusedBeforeAnythingIsMade) {
   const Outcome o = call(words("pairs.json", "s\xe4"));
   EXPECT_EQ(o.code, 2) << o.text;
-  EXPECT_TRUE(has(o, "s?: the name is not UTF-8")) << o.text;
+  EXPECT_CONTAINS(o.text, "s?: the name is not UTF-8");
   EXPECT_FALSE(fs::exists(path("s\xe4")));
 }
 
-TEST_F(StudyRun, TheCommandThatReportsTasksIsQuoted) {
+TEST_F(StudyProgram, TheCommandThatReportsTasksIsQuoted) {
   const Outcome o = call(words("pairs.json", "my study", {"--task", "1", "--tasks", "4"}));
-  EXPECT_TRUE(has(o, "acinus study pairs.json --out '" + path("my study").string() + "' --report"))
-      << o.text;
+  EXPECT_CONTAINS(o.text,
+                  "acinus study pairs.json --out '" + path("my study").string() + "' --report");
   EXPECT_EQ(names_in("my study").size(), 2U) << "study.json and runs";
 }
 
-TEST_F(StudyRun, KilledAndStartedAgainItWritesTheSameTable) {
+TEST_F(StudyProgram, KilledAndStartedAgainItWritesTheSameTable) {
   expect_done(call(words("pairs.json", "whole")));
   for (const int signal : {SIGKILL, SIGTERM}) {
     const std::string out = signal == SIGKILL ? "killed" : "stopped";
@@ -278,7 +262,7 @@ TEST_F(StudyRun, KilledAndStartedAgainItWritesTheSameTable) {
   }
 }
 
-TEST_F(StudyRun, StoppedWhileAnotherProcessCalibratesItStillReports) {
+TEST_F(StudyProgram, StoppedWhileAnotherProcessCalibratesItStillReports) {
   setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);
   write("auto.json", R"({ "name": "auto", "scene": "two_cells",
     "set": { "cells.model": "cbm", "cell_types.hepatocyte.cbm.stiffness_correction": "auto" },
@@ -290,13 +274,13 @@ TEST_F(StudyRun, StoppedWhileAnotherProcessCalibratesItStillReports) {
   study.send(SIGTERM);
   const Outcome stopped = study.wait();
   EXPECT_EQ(stopped.code, 75) << stopped.text;
-  EXPECT_NE(text("s/report.md").find("| only/seed_1 | to do |"), std::string::npos);
+  EXPECT_CONTAINS(text("s/report.md"), "| only/seed_1 | to do |");
   first.send(SIGTERM);
   EXPECT_EQ(first.wait().code, 75);
   unsetenv("XDG_CACHE_HOME");
 }
 
-TEST_F(StudyRun, TasksShareOneFolder) {
+TEST_F(StudyProgram, TasksShareOneFolder) {
   expect_done(call(words("pairs.json", "whole")));
   {
     Process a(path("."), words("pairs.json", "s", {"--task", "1", "--tasks", "3"}));
@@ -310,7 +294,7 @@ TEST_F(StudyRun, TasksShareOneFolder) {
   expect_same_tables("whole", "s");
 }
 
-TEST_F(StudyRun, TasksWaitForTheStartsOfOneAnother) {
+TEST_F(StudyProgram, TasksWaitForTheStartsOfOneAnother) {
   expect_done(call(words("shared.json", "whole")));
   {
     Process a(path("."), words("shared.json", "s", {"--task", "1", "--tasks", "2"}));
@@ -322,23 +306,23 @@ TEST_F(StudyRun, TasksWaitForTheStartsOfOneAnother) {
   expect_same_tables("whole", "s");
 }
 
-TEST_F(StudyRun, ARunFolderIsWrittenByOneProcessOnly) {
-  write("pair.json", program::kPair);
+TEST_F(StudyProgram, ARunFolderIsWrittenByOneProcessOnly) {
+  write("pair.json", kPair);
   Process first(path("."), {"run", "pair.json", "--out", "a", "--set", "time.end=100 days"});
   ASSERT_TRUE(first.await("threads"));
   for (const char* how : {"--overwrite", "--resume"}) {
     if (!fs::exists(path("a/checkpoint.h5")) && std::string(how) == "--resume") continue;
     const Outcome second = call({"run", "pair.json", "--out", "a", how});
     EXPECT_EQ(second.code, 2) << second.text;
-    EXPECT_TRUE(has(second, "process " + std::to_string(first.id()) + " on ")) << second.text;
-    EXPECT_TRUE(has(second, "is writing in this folder")) << second.text;
+    EXPECT_CONTAINS(second.text, "process " + std::to_string(first.id()) + " on ");
+    EXPECT_CONTAINS(second.text, "is writing in this folder");
   }
   first.send(SIGTERM);
   EXPECT_EQ(first.wait().code, 75);
   EXPECT_EQ(summary("a")["status"], "stopped");
 }
 
-TEST_F(StudyRun, TwoProcessesNeverRunTheSameRun) {
+TEST_F(StudyProgram, TwoProcessesNeverRunTheSameRun) {
   expect_done(call(words("pairs.json", "whole")));
   {
     Process a(path("."), words("pairs.json", "s"));
@@ -349,15 +333,15 @@ TEST_F(StudyRun, TwoProcessesNeverRunTheSameRun) {
   expect_same_tables("whole", "s");
 }
 
-TEST_F(StudyRun, AStudyCutShortReportsWhatIsThere) {
+TEST_F(StudyProgram, AStudyCutShortReportsWhatIsThere) {
   expect_done(call(words("pairs.json", "s", {"--only", "slow"})));
-  EXPECT_NE(text("s/table.csv").find("slow/seed_2"), std::string::npos);
-  EXPECT_EQ(text("s/table.csv").find("fast/seed_1"), std::string::npos);
+  EXPECT_CONTAINS(text("s/table.csv"), "slow/seed_2");
+  EXPECT_FALSE(test::contains(text("s/table.csv"), "fast/seed_1"));
   EXPECT_EQ(json("s/verdicts.json")[0]["verdict"], "not measured");
-  EXPECT_NE(text("s/report.md").find("| fast/seed_1 | to do |"), std::string::npos);
+  EXPECT_CONTAINS(text("s/report.md"), "| fast/seed_1 | to do |");
 }
 
-TEST_F(StudyRun, SharedStartsGiveTheSameStateAsStartUp) {
+TEST_F(StudyProgram, SharedStartsGiveTheSameStateAsStartUp) {
   expect_done(call(words("shared.json", "s")));
   const Json first = summary("s/runs/first/seed_1"), same = summary("s/runs/same/seed_1"),
              later = summary("s/runs/later/seed_1");
@@ -365,31 +349,30 @@ TEST_F(StudyRun, SharedStartsGiveTheSameStateAsStartUp) {
   EXPECT_NE(later["state_hash"], first["state_hash"]);
   EXPECT_TRUE(same["start"]["from"].get<std::string>().ends_with("runs/first/seed_1"));
   EXPECT_EQ(same["start"]["state_hash"], later["start"]["state_hash"]);
-  EXPECT_NE(text("s/report.md").find("- later/seed_2: cells at t = 0 of first/seed_2"),
-            std::string::npos);
+  EXPECT_CONTAINS(text("s/report.md"), "- later/seed_2: cells at t = 0 of first/seed_2");
   expect_done(call(words("shared.json", "elsewhere")));
   expect_same_tables("s", "elsewhere");
   EXPECT_EQ(summary("elsewhere/runs/same/seed_1")["scene_hash"], same["scene_hash"])
       << "the hash does not depend on folders";
 }
 
-TEST_F(StudyRun, AnyRunMayStartFromAnotherIfWhatShapesTheStartIsTheSame) {
+TEST_F(StudyProgram, AnyRunMayStartFromAnotherIfWhatShapesTheStartIsTheSame) {
   expect_done(call(words("shared.json", "s", {"--only", "first"})));
   fs::copy(path("s/runs/first/seed_1/scene.json"), path("here.json"));
   const Words from{"--set", "start_up.from=s/runs/first/seed_1"};
-  expect_done(call(program::ProgramTest::run_words("here.json", "a", from)));
+  expect_done(call(ProgramTest::run_words("here.json", "a", from)));
   EXPECT_EQ(summary("a")["state_hash"], summary("s/runs/first/seed_1")["state_hash"]);
-  Words other = program::ProgramTest::run_words("here.json", "b", from);
+  Words other = ProgramTest::run_words("here.json", "b", from);
   other.insert(other.end(),
                {"--set", "contact.skin=0.2 um", "--set", "friction.dcm_dcm=1e10 N s/m^3"});
   const Outcome o = call(other);
   EXPECT_EQ(o.code, 2);
-  EXPECT_TRUE(has(o, "/contact/skin: \"0.3 um\" -> \"0.2 um\"")) << o.text;
-  EXPECT_FALSE(has(o, "friction")) << o.text;
+  EXPECT_CONTAINS(o.text, "/contact/skin: \"0.3 um\" -> \"0.2 um\"");
+  EXPECT_FALSE(test::contains(o.text, "friction")) << o.text;
   const Outcome none =
-      call(program::ProgramTest::run_words("here.json", "c", {"--set", "start_up.from=s/runs"}));
+      call(ProgramTest::run_words("here.json", "c", {"--set", "start_up.from=s/runs"}));
   EXPECT_EQ(none.code, 2);
-  EXPECT_TRUE(has(none, "no start.h5")) << none.text;
+  EXPECT_CONTAINS(none.text, "no start.h5");
 }
 
 }  // namespace

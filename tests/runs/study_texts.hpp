@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "runs/study/plan.hpp"
 #include "runs/study/read_study.hpp"
+#include "tests/messages.hpp"
 
 namespace acinus::runs {
 
@@ -27,13 +27,7 @@ inline std::string text_with(const std::string& more, const std::string& variant
 inline StudyPlan parse(const std::string& text) { return parse_study(text, "s.json"); }
 
 inline std::string fault_of(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), Exit::kBadInput) << error.what();
-    return error.what();
-  }
-  return "no fault";
+  return test::fault_of([&] { parse(text); });
 }
 
 inline void expect_fault(const std::string& text, const std::vector<std::string>& parts) {

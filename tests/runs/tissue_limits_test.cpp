@@ -5,9 +5,7 @@
 namespace acinus::runs {
 namespace {
 
-using program::Outcome;
-
-using TissueLimits = program::ProgramTest;
+using TissueLimits = ProgramTest;
 
 constexpr const char* kTwoCells = R"({
   "time": {"end": "1 s", "step": "1 s"},
@@ -25,11 +23,11 @@ TEST_F(TissueLimits, AdhesionBeyondTheCortexIsAWarning) {
                           {"--overwrite", "--set", "cell_types.cell.adhesion=" + adhesion}))
         .text;
   };
-  EXPECT_EQ(warning("2.4e-4 J/m^2").find("warning"), std::string::npos);
+  EXPECT_FALSE(test::contains(warning("2.4e-4 J/m^2"), "warning"));
   const std::string told = warning("6e-4 J/m^2");
   for (const char* part : {"acinus: warning", "cell_types.cell.adhesion is 0.0006 J/m^2",
                            "1.2 times", "(0.00025 J/m^2)"})
-    EXPECT_NE(told.find(part), std::string::npos) << part << "\n" << told;
+    EXPECT_CONTAINS(told, part);
   EXPECT_EQ(summary("a")["warnings"].size(), 1u);
 }
 
@@ -48,7 +46,7 @@ TEST_F(TissueLimits, SpheresSayThatTheirTissueIsFull) {
   EXPECT_EQ(outcome.code, 3) << outcome.text;
   for (const char* part : {"The tissue is full", "times the volume of that space at rest",
                            "life.proliferation.cells", "inhibition"})
-    EXPECT_NE(outcome.text.find(part), std::string::npos) << part << "\n" << outcome.text;
+    EXPECT_CONTAINS(outcome.text, part);
 }
 
 }  // namespace

@@ -12,8 +12,6 @@
 namespace acinus::runs {
 namespace {
 
-using geometry::contains;
-using geometry::message_of;
 using geometry::TempFolder;
 using imaging::balls, imaging::options_for;
 
@@ -23,7 +21,7 @@ TEST(WriteTissue, MakesASceneThatStartsWithTheVolumesOfTheImage) {
   const std::string out = folder.path() + "/tissue";
   const imaging::ImportedTissue t = imaging::import_image(o);
   const std::vector<std::string> written = write_tissue(t, o, {}, out);
-  EXPECT_CONTAINS(message_of([&] { write_tissue(t, o, {}, out); }), "exists already");
+  EXPECT_CONTAINS(test::message_of([&] { write_tissue(t, o, {}, out); }), "exists already");
   const Scene scene = read_scene(written.front());
   EXPECT_EQ(scene.name, "tissue");
   const BuiltWorld built = build_world(scene, Ranks::serial());

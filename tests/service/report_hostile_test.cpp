@@ -12,6 +12,7 @@
 #include "io/run_file.hpp"
 #include "service/report/make_report.hpp"
 #include "tests/io/sample.hpp"
+#include "tests/messages.hpp"
 
 namespace acinus::service {
 namespace {
@@ -45,7 +46,7 @@ TEST(ReportHostile, JsonWithoutEndIsDamage) {
     for (int k = 0; k < 200'000; ++k) nested += open;
     const std::string folder = write_run(f, nested);
     put(folder + "/summary.json", nested);
-    EXPECT_NE(page_of(f, folder).find("summary.json: is no JSON object"), std::string::npos);
+    EXPECT_CONTAINS(page_of(f, folder), "summary.json: is no JSON object");
     put(f / "law.json", nested);
     EXPECT_THROW(page_of(f, f / "law.json"), Error);
     put(f / "s.study/study.json", nested);
@@ -77,7 +78,7 @@ TEST(ReportHostile, ShowsNothingThatLinksLeadTo) {
   const std::string folder = write_run(f);
   fs::create_symlink(f / "secret.txt", folder + "/summary.json");
   fs::create_symlink(f / "secret.txt", folder + "/run.lock");
-  EXPECT_EQ(page_of(f, folder).find(kSecret), std::string::npos);
+  EXPECT_FALSE(test::contains(page_of(f, folder), kSecret));
   EXPECT_EQ(io::read_text_file(f / "secret.txt"), kSecret);
   const std::string study = f / "s.study";
   put(study + "/study.json", "{}");
@@ -88,7 +89,7 @@ TEST(ReportHostile, ShowsNothingThatLinksLeadTo) {
   fs::remove_all(study + "/plots");
   fs::create_directory_symlink(f / "elsewhere", study + "/plots");
   fs::create_symlink(f / "secret.txt", study + "/verdicts.json.tmp");
-  EXPECT_EQ(page_of(f, study).find(kSecret), std::string::npos);
+  EXPECT_FALSE(test::contains(page_of(f, study), kSecret));
 }
 
 TEST(ReportHostile, DoesNotWaitForPipes) {

@@ -18,6 +18,7 @@
 #include "service/report/page.hpp"
 #include "service/report/thin.hpp"
 #include "tests/io/sample.hpp"
+#include "tests/messages.hpp"
 
 namespace acinus::service {
 namespace {
@@ -123,7 +124,7 @@ Json data_of(const std::string& page) {
   return Json::parse(text.substr(from, text.find("</script>", from) - from));
 }
 
-TEST(runs::Report, ShowsWhatARunHolds) {
+TEST(Report, ShowsWhatARunHolds) {
   const Folder f("report");
   write_run(f.path + "/a.run", 5, 2);
   const std::string page = write_report({.what = {f.path + "/a.run"}, .out = f.path + "/a.html"});
@@ -137,10 +138,10 @@ TEST(runs::Report, ShowsWhatARunHolds) {
   EXPECT_TRUE(run["damage"].empty());
   const std::string text = io::read_text_file(page);
   for (const char* from : {"src=\"http", "href=\"http", "url(http", "import(\"http"})
-    EXPECT_EQ(text.find(from), std::string::npos) << from;
+    EXPECT_FALSE(test::contains(text, from)) << from;
 }
 
-TEST(runs::Report, KeepsItsSizeByLeavingOutFrames) {
+TEST(Report, KeepsItsSizeByLeavingOutFrames) {
   const Folder f("report_limit");
   write_run(f.path + "/a.run", 40, 400);
   ReportOptions options{.what = {f.path + "/a.run"}, .out = f.path + "/a.html"};
@@ -155,7 +156,7 @@ TEST(runs::Report, KeepsItsSizeByLeavingOutFrames) {
   EXPECT_THROW(write_report(options), Error);
 }
 
-TEST(runs::Report, TellsWhatIsDamagedAndShowsTheRest) {
+TEST(Report, TellsWhatIsDamagedAndShowsTheRest) {
   const Folder f("report_damage");
   const std::string folder = f.path + "/a.run";
   write_run(folder, 3, 2);
@@ -168,7 +169,7 @@ TEST(runs::Report, TellsWhatIsDamagedAndShowsTheRest) {
   EXPECT_GE(run["damage"].size(), 2u);
 }
 
-TEST(runs::Report, RefusesWhatItDoesNotKnow) {
+TEST(Report, RefusesWhatItDoesNotKnow) {
   const Folder f("report_unknown");
   EXPECT_THROW(write_report({.what = {f.path}, .out = f.path + "/a.html"}), Error);
   EXPECT_THROW(write_report({.what = {f.path + "/none"}, .out = f.path + "/a.html"}), Error);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <cstdio>
 
 #include "core/parallel/threads.hpp"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -412,13 +413,13 @@ TEST(MergedProduct, PreparingForgetsTheMerge) {
 }
 
 /// A solve, and whether it left products in float merged.
-struct Solved {
+struct SolvedTissue {
   System system = make_tissue(88);
   std::vector<double> rhs = random_vector_of(system, 89), x = std::vector<double>(rhs.size());
   Operator op;
   CgResult result;
 
-  Solved(double tolerance, Precision precision) {
+  SolvedTissue(double tolerance, Precision precision) {
     op.prepare(system);
     CgWorkspace work;
     result = solve_cg({op, rhs}, x, {tolerance, 2000, precision}, work);
@@ -441,10 +442,10 @@ TEST(MergedSolve, ReachesTheSolutionOfDoubles) {
   const Eigen::MatrixXd dense = reference::make_dense(make_tissue(88));
   const Eigen::VectorXd exact = dense.ldlt().solve(as_eigen(random_vector_of(make_tissue(88), 89)));
   for (double tolerance : {1e-4, 1e-8, 1e-12}) {
-    const Solved mixed(tolerance, Precision::kMixed), full(tolerance, Precision::kDouble);
+    const SolvedTissue mixed(tolerance, Precision::kMixed), full(tolerance, Precision::kDouble);
     double error[2];
     int k = 0;
-    for (const Solved* s : {&mixed, &full}) {
+    for (const SolvedTissue* s : {&mixed, &full}) {
       ASSERT_TRUE(s->result.status.ok) << s->result.status.cause;
       EXPECT_GT(s->result.iterations, 20);  // twice as many as it takes to merge
       const double residual = s->true_residual(dense);
@@ -462,7 +463,7 @@ TEST(MergedSolve, ReachesTheSolutionOfDoubles) {
 }
 
 TEST(MergedSolve, ShortOnesDoNotMerge) {
-  const Solved s(0.3, Precision::kMixed);
+  const SolvedTissue s(0.3, Precision::kMixed);
   ASSERT_TRUE(s.result.status.ok);
   EXPECT_GT(s.result.iterations, 0);
   EXPECT_LT(s.result.iterations, 10);

@@ -18,6 +18,7 @@
 #include "geometry/remesh.hpp"
 #include "tests/geometry/implicit/expect_vessel_mesh.hpp"
 #include "tests/geometry/implicit/random_network.hpp"
+#include "tests/paths.hpp"
 
 namespace acinus::geometry {
 namespace {
@@ -214,11 +215,11 @@ TEST(VesselMesh, BadRadiiAreRefused) {
   EXPECT_THROW(make_vessel_mesh({}, {}), Error);
 }
 
-#ifdef ACINUS_REAL_DATA
 TEST(VesselMesh, OfRealNetworksIsSound) {
+  if (!test::has_real_data()) GTEST_SKIP();
   for (const char* name : {"test_smaller_vasculature.vtk", "penetrating_artery_standardized.vtk"}) {
-    const geometry::Network n = geometry::resample_network(
-        geometry::read_network(std::string(ACINUS_REAL_DATA) + "/vascpy/" + name));
+    const geometry::Network n =
+        geometry::resample_network(geometry::read_network(test::real_path("vascpy/") + name));
     const VesselMesh m = make_vessel_mesh(n, {});
     EXPECT_NO_THROW(geometry::check_manifold(m.surface, name));
     EXPECT_FALSE(geometry::crosses_itself(m.surface)) << name;
@@ -228,7 +229,6 @@ TEST(VesselMesh, OfRealNetworksIsSound) {
         << name;
   }
 }
-#endif
 
 }  // namespace
 }  // namespace acinus::geometry

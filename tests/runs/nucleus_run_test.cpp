@@ -8,11 +8,8 @@
 namespace acinus::runs {
 namespace {
 
-using program::Json;
-using program::Words;
-
 /// A cell between two plates that close, or a spheroid that divides, with all of the inside on.
-constexpr const char* kPressed = R"({
+constexpr const char* kBetweenPlates = R"({
   "model": "dcm", "experiment": "plates",
   "time": {"end": "60 min", "step": "30 s", "tolerance": "0.05 um"},
   "cell_types": {"cell": {"dcm": {"nodes": 162, "nucleus": NUCLEUS}}},
@@ -24,7 +21,7 @@ constexpr const char* kPressed = R"({
   "output": {"every": "10 min"}
 })";
 
-constexpr const char* kGrowing = R"({
+constexpr const char* kGrowingNuclei = R"({
   "seed": 5,
   "model": "dcm",
   "time": {"end": "320 min", "step": "2 min", "tolerance": "0.05 um"},
@@ -42,15 +39,15 @@ constexpr const char* kGrowing = R"({
   "output": {"every": "20 min"}
 })";
 
-class NucleusRun : public program::ProgramTest {
+class NucleusRun : public ProgramTest {
  protected:
   Json finish(const std::string& scene, const std::string& out, const Words& more = {}) const {
-    const program::Outcome outcome = call(run_words(scene, out, more));
+    const Outcome outcome = call(run_words(scene, out, more));
     EXPECT_EQ(outcome.code, 0) << outcome.text;
     return summary(out);
   }
   std::string pressed(const std::string& name, const std::string& nucleus) const {
-    std::string text = kPressed;
+    std::string text = kBetweenPlates;
     text.replace(text.find("NUCLEUS"), 7, nucleus);
     write(name + ".json", text);
     return name + ".json";
@@ -98,7 +95,7 @@ TEST_F(NucleusRun, BearsPartOfTheLoadAsItIsStiff) {
 }
 
 TEST_F(NucleusRun, ThroughDivisionsAndDeathIsBitForBit) {
-  write("growing.json", kGrowing);
+  write("growing.json", kGrowingNuclei);
   const Json whole = finish("growing.json", "whole");
   std::printf("%s\n", whole["cells"].dump().c_str());
   EXPECT_GE(whole["cells"]["divisions"], 3);
@@ -111,7 +108,7 @@ TEST_F(NucleusRun, ThroughDivisionsAndDeathIsBitForBit) {
   EXPECT_EQ(parts["steps"], whole["steps"]);
   const io::RunReader x = reader("whole"), y = reader("parts");
   EXPECT_EQ(x.n_frame(), y.n_frame());
-  program::expect_first_frames(program::read_frames(x), program::read_frames(y), "parts");
+  expect_first_frames(read_frames(x), read_frames(y), "parts");
 }
 
 TEST_F(NucleusRun, SpheresHaveNone) {

@@ -1,0 +1,21 @@
+#pragma once
+/// Files that tests read, wherever the sources lie. Paths in the command lines of all would make
+/// compiler caches miss in every checkout; only paths.cpp knows them.
+
+#include <string>
+
+namespace acinus::test {
+
+/// A file below the root of the sources.
+std::string source_path(const std::string& file);
+/// A file below tests/data/.
+std::string data_path(const std::string& file);
+/// The program acinus.
+std::string program_path();
+
+/// Presence of the folder of networks and meshes made by others, which is no part of the sources.
+bool has_real_data();
+/// A file in that folder.
+std::string real_path(const std::string& file);
+
+}  // namespace acinus::test
