@@ -2,6 +2,7 @@
 /// Small worlds whose cells grow, divide and die.
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <map>
 #include <vector>
@@ -52,15 +53,10 @@ inline LifeReport look(World& w, double time) {
   return live(w, work);
 }
 
-inline std::map<std::int64_t, Cell> index_cells(const State& s) {
-  std::map<std::int64_t, Cell> index;
-  for_each_cell(s, [&](const Cell& c) { index.emplace(lineage_of(s, c), c); });
-  return index;
-}
-
 inline std::vector<std::int64_t> lineages(const State& s) {
   std::vector<std::int64_t> all;
   for (const auto& [id, c] : index_cells(s)) all.push_back(id);
+  std::ranges::sort(all);
   return all;
 }
 
