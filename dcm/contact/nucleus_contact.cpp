@@ -91,7 +91,7 @@ class PointSearch {
   void flush(F found) {
     if (block_.n > 0) {
       contact::find_closest(nucleus_, {triangle_, bound_}, contact::kRounding, horizon_, block_);
-      contact::find_gaps(nucleus_, contact::Place::kRounded, block_);
+      contact::compute_gaps(nucleus_, contact::Place::kRounded, block_);
     }
     for (int i = 0; i < block_.n; ++i) {
       if (block_.triangle[i] < 0) continue;
