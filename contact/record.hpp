@@ -51,7 +51,7 @@ struct Contact {
   /// Likewise on triangle `point` of a; of contacts between triangles only
   /// (dcm/contact/triangle_contact.hpp).
   std::array<float, 2> place_a{};
-  double stiffness = 0;        ///< nN/um^3 under compression: of obstacles of a surface, of nuclei
+  double stiffness = 0;        ///< nN/um^3: of a surface with an obstacle, of nuclei
   double depth = 0;            ///< um, largest of a sphere's contacts with the same surface
   Vec3 normal = Vec3::Zero();  ///< unit, d gap / d x_a: from b towards a when apart
   double gap = 0;              ///< um, negative: overlap
