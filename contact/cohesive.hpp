@@ -23,7 +23,7 @@ inline double cohesive_energy(const CohesiveLaw& w, double gap) {
   return -w.adhesion * v * v * v * (1 + 3 * u);
 }
 
-/// d phi / d gap, kPa: positive pulls the surfaces together.
+/// Traction d phi / d gap, kPa: positive pulls the surfaces together.
 inline double cohesive_traction(const CohesiveLaw& w, double gap) {
   if (gap <= 0) return w.repulsion * gap;
   if (gap >= w.range) return 0;
@@ -31,7 +31,7 @@ inline double cohesive_traction(const CohesiveLaw& w, double gap) {
   return w.adhesion / w.range * 12 * u * v * v;
 }
 
-/// max(0, d2 phi / d gap^2), nN/um^3: the softening branch is left out of the matrix.
+/// Stiffness max(0, d2 phi / d gap^2), nN/um^3: the softening branch is left out of the matrix.
 inline double cohesive_stiffness(const CohesiveLaw& w, double gap) {
   if (gap <= 0) return w.repulsion;
   if (gap >= w.range) return 0;

@@ -18,7 +18,7 @@ struct MaugisPair {
   double cohesive_stress;  ///< sigma0 in kPa; the range of adhesion is h0 = W/sigma0
 };
 
-/// lambda = sigma0 (9 R/(2 pi W E^2))^(1/3), Eq. (15) (Maugis' parameter, 1.157 times Tabor's).
+/// Maugis parameter lambda = sigma0 (9 R/(2 pi W E^2))^(1/3), Eq. (15); 1.157 times Tabor's.
 double maugis_lambda(const MaugisPair& pair);
 
 /// Unit a0 of contact radii, um.

@@ -11,8 +11,8 @@ void refresh_references(const World& world, const State& at, double end, Workspa
     place_vessels(world.params.tree, at.tree, w.boundary->vessels);
   }
   dcm::refresh_lane_data(at.dcm, end, w.lanes);
-  cbm::find_radii(at.cbm, end, w.cbm_radius);
-  cbm::find_strengths(at.cbm, end, w.cbm_strength);
+  cbm::refresh_radii(at.cbm, end, w.cbm_radius);
+  cbm::refresh_strengths(at.cbm, end, w.cbm_strength);
   w.cbm_mother.clear();
   if (w.cbm_strength.empty() || at.cycle.empty()) return;
   for (std::size_t c = 0; c < at.cbm.n_cell(); ++c)
