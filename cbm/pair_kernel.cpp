@@ -141,7 +141,7 @@ class PairBatch {
   std::size_t index[kLanes] = {};                         ///< in the list of near pairs
 
  private:
-  /// Overlap of the pair being pushed, over the sum of its radii.
+  /// Relative overlap of the pair that push() adds, over the sum of its radii.
   double overlap_now() const {
     double squared = 0;
     for (std::size_t m = 0; m < 3; ++m) {

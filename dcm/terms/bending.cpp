@@ -12,9 +12,9 @@ struct Barrier {
   double start;  ///< cos theta where it begins
   double floor;  ///< 1 + cos theta below which it is linear, so that all numbers are finite
 };
-/// Bending begins to resist at 60 degrees between the faces, and is linear below 11.
+/// Barrier of bending: begins at 60 degrees between the faces, and is linear below 11.
 constexpr Barrier kBending{-0.5, 0.02};
-/// Contact of the faces begins at 26 degrees, and is linear below 3.6.
+/// Barrier of contact of the faces: begins at 26 degrees, and is linear below 3.6.
 constexpr Barrier kTouching{-0.9, 0.002};
 /// Depth at which two faces pressed on each other have the energy scale of the barrier of contact,
 /// um.
