@@ -16,8 +16,8 @@ namespace {
 
 using contact::Contact;
 
-/// The moduli of all cells, from the overlaps where a law asks for them.
-void find_moduli(const State& s, std::span<const Params> params, ContactWorkspace& work) {
+/// Moduli of all cells, from the overlaps where a law needs them.
+void compute_moduli(const State& s, std::span<const Params> params, ContactWorkspace& work) {
   work.modulus.resize(s.n_cell());
   const bool corrects = has_correction(params);
   work.coupling.assign(corrects ? s.n_cell() : 0, 0.0);
@@ -35,7 +35,7 @@ void find_moduli(const State& s, std::span<const Params> params, ContactWorkspac
   }
 }
 
-/// Makes of the coupling of one contact that of all contacts of a cell.
+/// Converts the coupling of one contact to that of all contacts of a cell.
 void scale_coupling(const ContactInput& in, ContactWorkspace& work,
                     std::span<const Contact> obstacle) {
   std::vector<double>& contacts = work.scratch;
@@ -51,8 +51,8 @@ void scale_coupling(const ContactInput& in, ContactWorkspace& work,
       work.coupling[i] *= contacts[i] / kNeighbours;
 }
 
-/// Whether a contact acts on vessels, too: not a point link, which joins a point with one other.
-bool meets_moving_vessel(const ContactInput& in, const Contact& k) {
+/// True if a contact acts on moving vessels, so that it is no point link, which joins two points.
+bool acts_on_moving_vessel(const ContactInput& in, const Contact& k) {
   return k.partner == contact::Partner::kVessel && in.vessel_row != contact::kAtRest;
 }
 
@@ -62,7 +62,7 @@ bool has_correction(std::span<const Params> params) {
   return std::ranges::any_of(params, [](const Params& p) { return p.correction.corrects(); });
 }
 
-void find_overlaps(const ContactInput& in, ContactWorkspace& work) {
+void compute_overlaps(const ContactInput& in, ContactWorkspace& work) {
   const State& s = in.state;
   const CellData& cells = in.cells;
   const std::span<const double> radius = cells.radius;
@@ -83,7 +83,7 @@ void find_overlaps(const ContactInput& in, ContactWorkspace& work) {
     count_overlap(work, a, relative[k], share);
     count_overlap(work, b, relative[k], share);
   }
-  // A wall is as much of an obstacle as the cell's own image behind it.
+  // A wall adds as much as the cell's own image behind it.
   for (std::size_t i = 0; i < s.n_cell(); ++i) {
     if (work.is_ghost(i)) continue;
     const auto count = [&](double gap) {
@@ -161,7 +161,7 @@ bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {
       segments.push_back(box.grown(wide));
       widest = std::max(widest, wide);
     }
-    // A surface about them may be that much farther out, in its rounded creases.
+    // A surface about the vessels may be that much farther out, in its rounded creases.
     constexpr double kRounding = 0.05;
     const double beyond = in.boundary.vessels.wall ? margin + kRounding * widest : margin;
     work.segment = contact::find_pairs_between(boxes, segments, beyond);
@@ -182,7 +182,7 @@ bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {
 void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::ContactList& contacts,
                    std::vector<solve::PointLink>& link) {
   ++work.searches;
-  find_moduli(in.state, in.params, work);
+  compute_moduli(in.state, in.params, work);
   find_pair_contacts(in, work, link);
   find_obstacle_contacts(in, work, contacts.all);
   contacts.close(contact::ContactKind::kSphereObstacle);
@@ -195,7 +195,7 @@ void add_coupling(ContactWorkspace& work, std::span<Contact> obstacle,
   if (work.coupling.empty()) return;
   std::size_t k = 0;
   for (const auto& touching : work.touching) {
-    if (touching.second < 0) continue;  // boundary
+    if (touching.second < 0) continue;  // contact with the boundary
     while (work.pair[k] != touching) ++k;
     link[k].stiffness +=
         static_cast<float>(work.coupling[touching.first] + work.coupling[touching.second]);
@@ -209,7 +209,7 @@ void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
   for_each_number(work.force.size(), [&](std::size_t k) { force[k] += work.force[k]; });
   system.point_links.resize(work.pair.size());
   for (const Contact& k : contacts.sphere_obstacle()) {
-    if (meets_moving_vessel(in, k)) continue;
+    if (acts_on_moving_vessel(in, k)) continue;
     const std::size_t i = k.a;
     add_point(system.external_force.data(), cell_address(in.first_row, i), k.force * k.normal);
     solve::PointLink link{
@@ -223,13 +223,13 @@ void add_vessel_loads(const ContactInput& in, const contact::ContactList& contac
                       solve::Links& links) {
   if (in.vessel_row == contact::kAtRest) return;
   for (const Contact& k : contacts.sphere_obstacle()) {
-    if (!meets_moving_vessel(in, k)) continue;
+    if (!acts_on_moving_vessel(in, k)) continue;
     const std::size_t i = k.a, l = links.size();
     links.resize(l + 1);
     links.link[l].a = solve::Side::at(cell_point(in.first_row, i));
     links.link[l].b =
         contact::vessel_side(in.boundary.vessels, in.vessel_row, k.b, center_of(in.state, i));
-    // Spheres may overlap as they like: no depth is too much.
+    // Spheres may overlap without limit: no depth is too large.
     solve::set_law(k.slope, k.friction, std::numeric_limits<double>::infinity(), k.normal,
                    links.link[l]);
     links.load[l] = {k.normal, k.force, 0, 0, static_cast<std::uint32_t>(&k - contacts.all.data())};

@@ -1,5 +1,5 @@
 #pragma once
-/// Input and scratch that the stages of the contact search of spheres share.
+/// Input and scratch of the contact search of spheres.
 
 #include <cstddef>
 #include <cstdint>
@@ -30,41 +30,41 @@ struct ContactInput {
   const ContactParams& options;
   CellData cells;
   const contact::Boundary& boundary;
-  double time = 0;                            ///< s, for which moving walls stand
-  std::size_t first_row = 0;                  ///< where the CBM rows start in the system
-  std::size_t vessel_row = contact::kAtRest;  ///< of the nodes of vessels that move
+  double time = 0;                            ///< s, at which moving walls are evaluated
+  std::size_t first_row = 0;                  ///< first CBM row in the system
+  std::size_t vessel_row = contact::kAtRest;  ///< first row of the nodes of moving vessels
 };
 
-/// Factors of a cell type in the law between two spheres.
+/// Constants of a cell type in the law between two spheres.
 struct TypeFactors {
   double softness = 1;       ///< 1 - nu^2
   double root_adhesion = 0;  ///< sqrt(W), nN/um to the power 1/2
 };
 
-/// Scratch of the contact search. Cells are cut into one range per thread; a thread adds to the
-/// cells of its own range only and computes pairs that cross into it once more.
+/// Scratch of the contact search. Cells are partitioned into one range per thread. A thread adds to
+/// the cells of its own range only and computes pairs across ranges redundantly.
 struct ContactWorkspace {
-  /// [n_cell] 1: another process computes this cell; empty: none. Set by the caller. What is
-  /// summed over the contacts of a cell is whole for own cells only.
+  /// [n_cell] 1: ghost cell, computed by another process; empty: none. Set by the caller. Sums over
+  /// the contacts of a cell are complete for own cells only.
   std::vector<std::uint8_t> ghost;
   /// Near pairs with an own cell, ascending; written by: refresh_pairs
   std::vector<std::pair<int, int>> pair;
   std::vector<std::pair<int, int>> segment;  ///< (cell, vessel segment) near pairs
   std::vector<double> list_position, list_radius;
-  geometry::Network list_network;  ///< of vessels that move
+  geometry::Network list_network;  ///< moving vessels at the last rebuild
   std::vector<double> force;       ///< [n_row][3][lane] nN of all pairs; by: find_contacts
   std::vector<std::pair<int, int>> touching;  ///< new touching set, committed with an accepted step
   std::vector<std::vector<std::pair<int, int>>> touching_part;  ///< of other threads than the first
   std::vector<TypeFactors> type_factors;  ///< [type]; written by: find_contacts
   std::vector<double> contact_area;       ///< [n_cell] um^2, sum over all contacts
-  /// [n_cell] sum of the relative overlaps with cells and walls, vessels and meshes left out. By
-  /// find_overlaps; the DCM-CBM interface adds its own. Empty: not wanted.
+  /// [n_cell] sum of the relative overlaps with cells and walls, without vessels and meshes. By
+  /// compute_overlaps; the DCM-CBM interface adds its own. Empty: no law needs it.
   std::vector<double> overlap_sum;
   /// [n_cell] contacts in that sum, each with its share. Empty: no law takes the mean.
   std::vector<double> overlap_count;
   std::vector<Modulus> modulus;  ///< [n_cell] kPa, from the overlaps; written by: find_contacts
-  /// [n_cell] nN/um, how much stiffer the force of any contact of a cell may be because its modulus
-  /// grows with all its overlaps, C_i; written by: find_contacts. Empty: no law corrects.
+  /// [n_cell] nN/um, bound C_i of the additional stiffness of a contact of a cell because its
+  /// modulus grows with all its overlaps; written by: find_contacts. Empty: no law corrects.
   std::vector<double> coupling;
   std::vector<double> scratch;  ///< of one function at a time
   int list_builds = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the two daughters of a dividing sphere begin, and how gently.
+/// Initial positions and strength of the two daughters of a dividing sphere.
 
 #include <array>
 
@@ -8,7 +8,7 @@
 
 namespace acinus::cbm {
 
-/// A sphere about to divide.
+/// Sphere about to divide.
 struct Mother {
   Vec3 center = Vec3::Zero();
   double radius = 0;                   ///< um, of its intrinsic volume

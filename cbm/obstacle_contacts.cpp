@@ -22,8 +22,8 @@ bool was_touching(const State& s, int a, int b) {
   return std::ranges::binary_search(s.touching, std::pair(a, b));
 }
 
-/// A key for a part of the boundary that cannot be a cell number. Checkpoints hold it: kinds that
-/// came later than the first four have a range of their own.
+/// Key of an obstacle, distinct from all cell numbers. Checkpoints hold it: kinds that came later
+/// than the first four have a range of their own.
 int boundary_key(Partner kind, int index) {
   constexpr int kFirstKinds = 4, kLater = 1 << 28;
   const int number = static_cast<int>(kind);
@@ -31,7 +31,7 @@ int boundary_key(Partner kind, int index) {
   return ~((number - kFirstKinds + 1) * kLater + index);
 }
 
-/// Whether a cell adheres to this segment or to one that shares an end with it: a stretched contact
+/// True if a cell adheres to this segment or to one that shares an end with it: a stretched contact
 /// that slides past a joint is still the same contact.
 bool was_touching_vessel(const State& s, const contact::Vessels& vessels, int cell, int segment) {
   if (was_touching(s, cell, boundary_key(Partner::kVessel, segment))) return true;
@@ -41,7 +41,7 @@ bool was_touching_vessel(const State& s, const contact::Vessels& vessels, int ce
   return false;
 }
 
-/// Finds and completes the contacts of spheres with boundary.
+/// Search for the contacts of spheres with the boundary, and evaluation of their law.
 class ObstacleSearch {
  public:
   ObstacleSearch(const ContactInput& in, ContactWorkspace& work, std::vector<Contact>& out)
@@ -53,14 +53,15 @@ class ObstacleSearch {
     for (std::size_t i = 0; i < in_.state.n_cell(); ++i) {
       if (work_.is_ghost(i)) continue;
       const Vec3 x = center_of(in_.state, i);
-      contact::for_each_wall(
-          boundary, [&](Partner kind, int k, const auto& wall) { meet_wall(kind, i, k, wall, x); });
-      for (std::size_t k = 0; k < boundary.meshes.size(); ++k) meet_mesh(i, k, x);
+      contact::for_each_wall(boundary, [&](Partner kind, int k, const auto& wall) {
+        evaluate_wall(kind, i, k, wall, x);
+      });
+      for (std::size_t k = 0; k < boundary.meshes.size(); ++k) evaluate_mesh(i, k, x);
     }
     if (in_.vessel_row == contact::kAtRest)
-      for (auto [cell, segment] : work_.segment) meet_vessel(cell, segment);
+      for (auto [cell, segment] : work_.segment) evaluate_vessel(cell, segment);
     else
-      meet_moving_vessels();
+      evaluate_moving_vessels();
     std::ranges::sort(work_.touching);
   }
 
@@ -70,7 +71,7 @@ class ObstacleSearch {
   SphereBody body(std::size_t i) const {
     return {radius(i), work_.modulus[i].value, params_of(i).poisson};
   }
-  /// @param overlap  relative, of the contact alone
+  /// Modulus toward an obstacle. @param overlap  relative, of the contact alone
   FaceModulus face_of(std::size_t i, double overlap) const {
     return modulus_toward(params_of(i).correction, in_.state.young[i], work_.modulus[i], overlap);
   }
@@ -78,8 +79,8 @@ class ObstacleSearch {
     return {shape, m.young, m.poisson};
   }
 
-  /// Largest change of a contact force of the cell with the modulus that all its contacts set, as
-  /// `by_modulus` for pairs; a bound, since a partner's own softness only makes it less.
+  /// Bounds the change of a contact force of the cell with the modulus that all its contacts set,
+  /// as `by_modulus` for pairs. A bound, since the compliance of a partner only reduces it.
   void couple(std::size_t i, const contact::SphereForce& law, double slope) {
     if (work_.coupling.empty()) return;
     const double poisson = params_of(i).poisson;
@@ -88,7 +89,7 @@ class ObstacleSearch {
                                         slope * work_.modulus[i].slope / radius(i));
   }
 
-  /// Adds a contact, complete.
+  /// Adds a complete contact.
   /// @param by_overlap  dE^/d overlap of its own, kPa/um
   void add(Contact k, const contact::SphereForce& law, double friction, double slope,
            double by_overlap = 0) {
@@ -102,12 +103,13 @@ class ObstacleSearch {
     work_.contact_area[i] += k.touching;
   }
 
-  /// @param recess      um, by which a wall is met later than at the radius
-  /// @param slope       of its modulus over that of the cell
+  /// Evaluates a pair and adds its contact if it touches.
+  /// @param recess      um, distance of the wall contact's onset from the radius
+  /// @param slope       derivative of its modulus by that of the cell
   /// @param share       of its force
   /// @param by_overlap  dE^/d overlap, kPa/um
-  void meet(const Contact& k, const contact::SpherePair& pair, double recess = 0, double slope = 1,
-            double share = 1, double by_overlap = 0) {
+  void evaluate(const Contact& k, const contact::SpherePair& pair, double recess = 0,
+                double slope = 1, double share = 1, double by_overlap = 0) {
     const std::size_t i = k.a;
     const int key = boundary_key(k.partner, k.b);
     const bool before = k.partner == Partner::kVessel
@@ -122,21 +124,21 @@ class ObstacleSearch {
     add(k, law, params_of(i).vessel_friction, slope, by_overlap);
   }
 
-  void meet_face(const Contact& k, const contact::Material& material, double shape) {
+  void evaluate_face(const Contact& k, const contact::Material& material, double shape) {
     const std::size_t i = k.a;
     const StiffnessLaw& law = params_of(i).correction;
     const double modulus = work_.modulus[i].value;
-    // The paper's law knows spheres at walls only.
+    // The paper's law has spheres at walls, no faces.
     const WallFace face = law.mean_of_contacts ? WallFace{.modulus = modulus}
                                                : wall_face(law, in_.state.young[i], modulus);
     SphereBody crowded = body(i);
     crowded.young = face.modulus;
-    // That the face recedes as the cell is crowded is left out of the matrix: it makes the contact
-    // softer than the bound of `couple` says, while a law is steepest even unstable.
-    meet(k,
-         contact::reduced_pair(crowded, flat(material, shape),
-                               in_.options.adhesion_factor * material.adhesion),
-         radius(i) * face.recess, face.slope);
+    // The recession of the face with crowding is left out of the matrix: it makes the contact
+    // softer than the bound of `couple`, and even unstable where a law is steepest.
+    evaluate(k,
+             contact::reduced_pair(crowded, flat(material, shape),
+                                   in_.options.adhesion_factor * material.adhesion),
+             radius(i) * face.recess, face.slope);
   }
 
   Contact contact_with(Partner partner, std::size_t i, int index, double gap,
@@ -150,22 +152,23 @@ class ObstacleSearch {
   }
 
   template <class Wall>
-  void meet_wall(Partner kind, std::size_t i, int index, const Wall& wall, const Vec3& x) {
+  void evaluate_wall(Partner kind, std::size_t i, int index, const Wall& wall, const Vec3& x) {
     const double shape = contact::shape_radius(wall, in_.time);
-    if (shape < 0 && -shape <= radius(i)) return;  // a hollow that the sphere does not fit in
+    if (shape < 0 && -shape <= radius(i)) return;  // concave, and smaller than the sphere
     const contact::Gap g = contact::gap_to_wall(wall, x, in_.time);
-    if (!std::isfinite(g.gap)) return;  // it is gone
+    if (!std::isfinite(g.gap)) return;  // vanished
     const Contact k = contact_with(kind, i, index, g.gap, g.normal);
     if (!wall.material.mirror) {
-      meet_face(k, wall.material, shape);
+      evaluate_face(k, wall.material, shape);
       return;
     }
-    meet_mirror(k, g.gap);
+    evaluate_mirror(k, g.gap);
   }
 
-  /// A mirror stands for an equal cell, which a law stiffens as it does any single neighbour.
+  /// Evaluates a mirror plane. It stands for an equal cell, which a law stiffens like any single
+  /// neighbour.
   /// @param gap  um, of the centre
-  void meet_mirror(const Contact& k, double gap) {
+  void evaluate_mirror(const Contact& k, double gap) {
     const std::size_t i = k.a;
     const double share = in_.cells.strength_of(i);
     if (gap >= radius(i) || share <= 0) return;
@@ -176,17 +179,17 @@ class ObstacleSearch {
         face.own ? 0 : 1, by_overlap);
   }
 
-  void meet_mesh(std::size_t i, std::size_t index, const Vec3& x) {
+  void evaluate_mesh(std::size_t i, std::size_t index, const Vec3& x) {
     const contact::StaticMesh& m = in_.boundary.meshes[index];
     const double reach = 2 * radius(i);
     if (!m.body.box.grown(reach).contains(x)) return;
     const contact::Gap g = contact::gap_to_mesh(m.body, x, reach);
-    meet(contact_with(Partner::kMesh, i, static_cast<int>(index), g.gap, g.normal),
-         contact::reduced_pair(body(i), flat(m.material, contact::kFlat),
-                               in_.options.adhesion_factor * m.material.adhesion));
+    evaluate(contact_with(Partner::kMesh, i, static_cast<int>(index), g.gap, g.normal),
+             contact::reduced_pair(body(i), flat(m.material, contact::kFlat),
+                                   in_.options.adhesion_factor * m.material.adhesion));
   }
 
-  /// The gap to a segment, if the contact with it is one of its own.
+  /// Gap to a segment, if its contact is one of its own.
   std::optional<contact::Gap> vessel_gap(std::size_t i, int segment) const {
     const contact::Vessels& vessels = in_.boundary.vessels;
     const Vec3 x = center_of(in_.state, i);
@@ -196,61 +199,64 @@ class ObstacleSearch {
     return contact::gap_to_wall(vessels, segment, x, 2 * radius(i));
   }
 
-  void meet_vessel(std::size_t i, int segment) {
-    if (const std::optional<contact::Gap> g = vessel_gap(i, segment)) press(i, segment, *g, 1);
+  void evaluate_vessel(std::size_t i, int segment) {
+    if (const std::optional<contact::Gap> g = vessel_gap(i, segment))
+      evaluate_segment(i, segment, *g, 1);
   }
 
-  /// A vessel that bends has two contacts where it had one, on the inner side of every joint that
-  /// is no longer straight: contacts with segments that share a node count as one as far as they
-  /// point the same way.
-  void meet_moving_vessels() {
+  /// Evaluates moving vessels. A bent vessel has two contacts in place of one on the inner side of
+  /// every joint that is no longer straight: contacts with segments that share a node count as one
+  /// in proportion to the similarity of their directions.
+  void evaluate_moving_vessels() {
     const geometry::Network& network = in_.boundary.vessels.network;
-    std::vector<std::pair<int, contact::Gap>> met;  // segment
+    std::vector<std::pair<int, contact::Gap>> found;  // [contact] segment, gap
     for (auto pair = work_.segment.begin(); pair != work_.segment.end();) {
       const int cell = pair->first;
-      met.clear();
+      found.clear();
       for (; pair != work_.segment.end() && pair->first == cell; ++pair)
         if (const std::optional<contact::Gap> g = vessel_gap(cell, pair->second))
-          met.emplace_back(pair->second, *g);
-      for (const auto& [segment, gap] : met) {
+          found.emplace_back(pair->second, *g);
+      for (const auto& [segment, gap] : found) {
         double count = 1;
-        for (const auto& [other, there] : met)
+        for (const auto& [other, there] : found)
           if (other != segment && geometry::share_a_node(network, other, segment))
             count += likeness(gap.normal, there.normal) *
                      share_of(radius(cell) - there.gap, radius(cell) - gap.gap);
-        press(cell, segment, gap, 1 / count);
+        evaluate_segment(cell, segment, gap, 1 / count);
       }
     }
   }
 
-  /// How much a neighbour as deep as this counts beside a contact: as much as itself at most.
+  /// Weight of a neighbouring contact of this depth beside a contact: at most 1.
   static double share_of(double neighbour, double own) {
     if (neighbour <= 0) return 0;
     return neighbour >= own ? 1 : neighbour / own;
   }
 
-  /// 1: two directions are one; 0: they are two. Contacts run into each other where their distance
-  /// on the sphere is that of the diameter of a contact some hundredths of the radius deep.
+  /// Similarity of two directions: 1 if they are equal, 0 if they are separate. Contacts merge
+  /// where their distance on the sphere is the diameter of a contact some hundredths of the radius
+  /// deep.
   static double likeness(const Vec3& a, const Vec3& b) {
     constexpr double kApart = 0.5;  // rad
     const double x = std::min(1.0, std::acos(std::clamp(a.dot(b), -1.0, 1.0)) / kApart);
     return (1 - x) * (1 - x) * (1 + 2 * x);
   }
 
-  /// The contact of a sphere with a segment. @param share  of its force
-  void press(std::size_t i, int segment, const contact::Gap& g, double share) {
+  /// Evaluates the contact of a sphere with a segment. @param share  of its force
+  void evaluate_segment(std::size_t i, int segment, const contact::Gap& g, double share) {
     const contact::Material& m = in_.boundary.vessels.material;
     const Contact k = contact_with(Partner::kVessel, i, segment, g.gap, g.normal);
     const double adhesion = in_.options.adhesion_factor * m.adhesion;
     const StiffnessLaw& law = params_of(i).correction;
     if (!law.corrects() || !law.single_overlaps) {
-      meet(k, contact::vessel_pair(body(i), {g.radius, m.young, m.poisson}, adhesion), 0, 1, share);
+      evaluate(k, contact::vessel_pair(body(i), {g.radius, m.young, m.poisson}, adhesion), 0, 1,
+               share);
       return;
     }
     const FaceModulus face = face_of(i, -k.gap / (radius(i) + g.radius));
     const VesselPair bounded = corrected_vessel_pair(
         face, {radius(i), face.value, params_of(i).poisson}, m, g.radius, -k.gap, adhesion);
-    meet(k, bounded.pair, 0, face.own ? 0 : 1, share, bounded.modulus_by_overlap);
+    evaluate(k, bounded.pair, 0, face.own ? 0 : 1, share, bounded.modulus_by_overlap);
   }
 
   const ContactInput& in_;

@@ -1,5 +1,5 @@
 #pragma once
-/// Contacts of spheres with planes, capsules, vessels and static meshes.
+/// Contacts of spheres with walls, vessels and static meshes.
 
 #include <vector>
 
@@ -8,8 +8,8 @@
 
 namespace acinus::cbm {
 
-/// Appends the contacts of spheres with boundary, complete, and adds their areas, couplings and
-/// touching flags to `work`. The second of the stages of find_contacts.
+/// Search for the contacts of spheres with the boundary: appends them, complete, and adds their
+/// areas, couplings and touching flags to `work`. Second stage of find_contacts.
 void find_obstacle_contacts(const ContactInput& in, ContactWorkspace& work,
                             std::vector<contact::Contact>& contacts);
 

@@ -12,10 +12,10 @@
 namespace acinus::cbm {
 namespace {
 
-/// Below this many cells starting threads costs more than it saves.
+/// Number of cells below which starting threads costs more than it saves.
 constexpr std::size_t kParallelCells = 2000;
 
-/// Eight pairs on their way through the law.
+/// Eight pairs: input and output of the law.
 struct alignas(64) Batch {
   // in
   double xa[3][kLanes], xb[3][kLanes], radius_a[kLanes], radius_b[kLanes];
@@ -46,7 +46,7 @@ ACINUS_KERNEL void evaluate(Batch& p) {
   store(p.overlap, overlap);
 }
 
-/// Leaves each pair its share of all that it does; without a share it does not touch.
+/// Scales all actions of each pair by its share; without a share it does not touch.
 void weaken(const double (&share)[kLanes], Batch& p) {
   for (std::size_t l = 0; l < kLanes; ++l) {
     for (double* v : {&p.force[l], &p.stiffness[l], &p.area[l]}) *v *= share[l];
@@ -54,8 +54,8 @@ void weaken(const double (&share)[kLanes], Batch& p) {
   }
 }
 
-void find_type_factors(std::span<const Params> params, double adhesion_factor,
-                       std::vector<TypeFactors>& factors) {
+void compute_type_factors(std::span<const Params> params, double adhesion_factor,
+                          std::vector<TypeFactors>& factors) {
   factors.clear();
   for (const Params& p : params)
     factors.push_back({1 - p.poisson * p.poisson, std::sqrt(adhesion_factor * p.adhesion)});
@@ -69,7 +69,7 @@ FaceModulus face_toward(const ContactInput& in, const ContactWorkspace& work, st
   return modulus_toward(law, in.state.young[cell], crowd, overlap);
 }
 
-/// Up to eight near pairs and their law.
+/// Batch of up to eight near pairs, and their law.
 class PairBatch {
  public:
   PairBatch(const ContactInput& in, const ContactWorkspace& work)
@@ -78,7 +78,7 @@ class PairBatch {
   std::size_t size() const { return n_; }
   void clear() { n_ = 0; }
 
-  /// Takes pair k of the list of near pairs. Pairs that come in its order are fastest.
+  /// Adds pair k of the list of near pairs. Pairs in the order of the list are fastest.
   /// @return true if the batch is full
   bool push(std::size_t k) {
     index[n_] = k;
@@ -108,7 +108,7 @@ class PairBatch {
     return ++n_ == kLanes;
   }
 
-  /// Evaluates the law of all pairs taken.
+  /// Evaluates the law of all pairs of the batch.
   void evaluate_all() {
     for (std::size_t l = n_; l < kLanes; ++l) {  // idle lanes repeat the last pair
       for (std::size_t m = 0; m < 3; ++m) {
@@ -141,7 +141,7 @@ class PairBatch {
   std::size_t index[kLanes] = {};                         ///< in the list of near pairs
 
  private:
-  /// Overlap of the pair being pushed, over the sum of its radii.
+  /// Relative overlap of the pair that push() adds, over the sum of its radii.
   double overlap_now() const {
     double squared = 0;
     for (std::size_t m = 0; m < 3; ++m) {
@@ -151,16 +151,17 @@ class PairBatch {
     return 1 - std::sqrt(squared) / (value.radius_a[n_] + value.radius_b[n_]);
   }
 
-  /// Pairs come in the order of the touching set, so that a finger moves along both.
+  /// Test for contact at the last step. Pairs come in the order of the touching set, so that one
+  /// index moves along it.
   bool was_touching(std::pair<int, int> p) {
     const auto& t = s_.touching;
-    if (finger_ == kUnset || (finger_ > 0 && !(t[finger_ - 1] < p)))
-      finger_ = static_cast<std::size_t>(std::ranges::lower_bound(t, p) - t.begin());
-    while (finger_ < t.size() && t[finger_] < p) ++finger_;
-    return finger_ < t.size() && t[finger_] == p;
+    if (cursor_ == kUnset || (cursor_ > 0 && !(t[cursor_ - 1] < p)))
+      cursor_ = static_cast<std::size_t>(std::ranges::lower_bound(t, p) - t.begin());
+    while (cursor_ < t.size() && t[cursor_] < p) ++cursor_;
+    return cursor_ < t.size() && t[cursor_] == p;
   }
 
-  /// Adds the growth of the moduli to the slope of a contact whose own overlap decides them.
+  /// Adds the growth of the moduli to the slope of a contact whose own overlap sets them.
   void stiffen(std::size_t l) {
     const auto [a, b] = work_.pair[index[l]];
     double more = 0;
@@ -175,10 +176,10 @@ class PairBatch {
   const CellData& cells_;
   const ContactWorkspace& work_;
   double share_[kLanes] = {};  ///< used only when not all strengths are 1
-  std::size_t n_ = 0, finger_ = kUnset;
+  std::size_t n_ = 0, cursor_ = kUnset;
 };
 
-/// One thread's cells [first, last): all pairs that have a side among them.
+/// Search over the cells [first, last) of one thread: all pairs with a side among them.
 class RangeSearch {
  public:
   RangeSearch(const ContactInput& in, std::pair<std::size_t, std::size_t> range,
@@ -299,7 +300,7 @@ void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
   work.force.resize(in.state.position.size());
   link.resize(work.pair.size());
   work.contact_area.resize(n);
-  find_type_factors(in.params, in.options.adhesion_factor, work.type_factors);
+  compute_type_factors(in.params, in.options.adhesion_factor, work.type_factors);
   const std::size_t n_part = n > kParallelCells ? static_cast<std::size_t>(thread_count()) : 1;
   work.touching_part.resize(n_part - 1);
   for_each_part(n_part, [&](std::size_t k) {
@@ -328,7 +329,7 @@ void list_pairs(const ContactInput& in, const ContactWorkspace& work,
   };
   std::size_t k = 0;
   for (const auto& touching : work.touching) {
-    if (touching.second < 0) continue;  // boundary
+    if (touching.second < 0) continue;  // contact with the boundary
     while (work.pair[k] != touching) ++k;
     if (batch.push(k)) flush();
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// Sphere pairs, eight at a time.
+/// Contacts of sphere pairs, eight at a time.
 
 #include <vector>
 
@@ -9,8 +9,8 @@
 
 namespace acinus::cbm {
 
-/// Evaluates every near pair: forces on the cells, contact areas and overlaps, links, and the new
-/// touching set. The first of the stages of find_contacts; clears what it writes.
+/// Evaluate every near pair: forces on the cells, contact areas and overlaps, links, and the new
+/// touching set. First stage of find_contacts; clears the arrays that it writes.
 void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
                         std::vector<solve::PointLink>& link);
 

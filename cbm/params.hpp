@@ -20,12 +20,13 @@ struct Params {
   double young = young_from_bulk(2.5, 0.47);  ///< kPa, mean over cells
   double young_spread = 0.1;                  ///< relative standard deviation from cell to cell
   double poisson = 0.47;
-  double medium_friction = 0.5;    ///< nN s/um^3, gamma_ECM; used unless viscosity > 0
-  double viscosity = 0;            ///< nN s/um^2, Stokes drag 6 pi eta R
-  bool whole_medium_area = false;  ///< the medium is felt on the whole surface, touching or not
-  double diffusion = 1e-4;         ///< um^2/s
-  double adhesion = 0.01;          ///< nN/um
-  double vessel_friction = 0.5;    ///< nN s/um^3
+  double medium_friction = 0.5;  ///< nN s/um^3, gamma_ECM; used unless viscosity > 0
+  double viscosity = 0;          ///< nN s/um^2, Stokes drag 6 pi eta R
+  bool whole_medium_area =
+      false;                ///< true: the medium acts on the whole surface, false: on its free part
+  double diffusion = 1e-4;  ///< um^2/s
+  double adhesion = 0.01;   ///< nN/um
+  double vessel_friction = 0.5;  ///< nN s/um^3
   StiffnessLaw correction;
 };
 

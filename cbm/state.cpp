@@ -25,7 +25,7 @@ State make_size(std::size_t n) {
   return s;
 }
 
-/// The pairs that touch among cells of other states, by their new numbers, ascending.
+/// Touching pairs among cells of other states, by their new numbers, ascending.
 std::vector<std::pair<int, int>> find_touching(std::span<const SelectedCell<State>> cells) {
   std::map<const State*, std::vector<int>> new_index;  // [cell of that state], -1: left out
   for (std::size_t k = 0; k < cells.size(); ++k)
@@ -39,7 +39,7 @@ std::vector<std::pair<int, int>> find_touching(std::span<const SelectedCell<Stat
         if (i >= 0 && (b < 0 || j >= 0)) f(b < 0 ? i : std::min(i, j), b < 0 ? b : std::max(i, j));
       }
   };
-  // Sorted by their first cells in one go; each has few.
+  // Sorted by their first cells in one pass; each has few.
   std::vector<std::size_t> next(cells.size() + 1, 0);
   for_each_pair([&](int a, int) { ++next[a + 1]; });
   std::partial_sum(next.begin(), next.end(), next.begin());
@@ -86,11 +86,11 @@ State compose(std::span<const SelectedCell<State>> cells) {
 
 std::vector<double> radii_at(const State& s, double time) {
   std::vector<double> radius;
-  find_radii(s, time, radius);
+  refresh_radii(s, time, radius);
   return radius;
 }
 
-void find_radii(const State& s, double time, std::vector<double>& radius) {
+void refresh_radii(const State& s, double time, std::vector<double>& radius) {
   radius.resize(s.n_cell());
   for_each_index(radius.size(), worth_threads(s.n_row()),
                  [&](std::size_t c) { radius[c] = sphere_radius(s.volume[c].at(time)); });
@@ -98,11 +98,11 @@ void find_radii(const State& s, double time, std::vector<double>& radius) {
 
 std::vector<double> strengths_at(const State& s, double time) {
   std::vector<double> strength;
-  find_strengths(s, time, strength);
+  refresh_strengths(s, time, strength);
   return strength;
 }
 
-void find_strengths(const State& s, double time, std::vector<double>& strength) {
+void refresh_strengths(const State& s, double time, std::vector<double>& strength) {
   strength.clear();
   if (std::ranges::all_of(s.strength, [&](const Ramp& r) { return r.at(time) == 1; })) return;
   for (std::size_t c = 0; c < s.n_cell(); ++c) strength.push_back(s.strength[c].at(time));

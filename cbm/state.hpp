@@ -15,17 +15,18 @@
 
 namespace acinus::cbm {
 
-/// Cell c stands in lane c % kLanes of row c / kLanes; the tail lanes of the last row are empty.
+/// State of the cells. Cell c stands in lane c % kLanes of row c / kLanes; the tail lanes of the
+/// last row are empty.
 struct State {
   std::vector<double> position;       ///< [rows][3][lane] um
   std::vector<std::int64_t> lineage;  ///< [n_cell]
   std::vector<int> type;              ///< [n_cell]
   std::vector<Ramp> volume;           ///< [n_cell] um^3, intrinsic volume
-  std::vector<Ramp> strength;         ///< [n_cell] 0..1, rises after birth; CellData says of what
+  std::vector<Ramp> strength;         ///< [n_cell] 0..1, rises after birth; see CellData
   std::vector<double> young;          ///< [n_cell] kPa
   std::vector<Vec3> pull;             ///< [n_cell] nN, constant load
-  /// Adhesive contacts that exist, as (cell, cell) or (cell, ~boundary key); sorted. JKR
-  /// contact has hysteresis, so this is state.
+  /// Adhesive contacts in existence, as (cell, cell) or (cell, ~boundary key); sorted. JKR contact
+  /// has hysteresis, so this is state.
   std::vector<std::pair<int, int>> touching;
 
   std::size_t n_cell() const { return lineage.size(); }
@@ -44,8 +45,8 @@ struct NewCell {
 
 State make_state(const std::vector<NewCell>& cells);
 
-/// Copies cells into a new state, in the order given. Contacts that exist between cells of one
-/// state, or with boundary, are kept.
+/// Copies cells into a new state, in the order given. Contacts in existence between cells of one
+/// state, or with the boundary, are kept.
 State compose(std::span<const SelectedCell<State>> cells);
 
 /// Address in arrays that start with the CBM rows at `first_row`.
@@ -62,13 +63,13 @@ inline Vec3 center_of(const State& s, std::size_t cell) {
 
 /// Radii from the intrinsic volumes at a time, um.
 std::vector<double> radii_at(const State& state, double time);
-void find_radii(const State& state, double time, std::vector<double>& radius);
+void refresh_radii(const State& state, double time, std::vector<double>& radius);
 
-/// Strengths at a time; empty when all are 1, so that nothing needs to look at them.
+/// Strengths at a time; empty when all are 1.
 std::vector<double> strengths_at(const State& state, double time);
-void find_strengths(const State& state, double time, std::vector<double>& strength);
+void refresh_strengths(const State& state, double time, std::vector<double>& strength);
 
-/// What contacts need of the cells at one time: that of the end of the step.
+/// Cell data of the contact search at one time, that of the end of the step.
 struct CellData {
   std::span<const double> radius;         ///< [n_cell] um
   std::span<const double> strength = {};  ///< [n_cell] 0..1; empty: all 1
@@ -76,9 +77,9 @@ struct CellData {
       {};  ///< [n_cell] lineage, -1: none; empty: all are sisters
 
   double strength_of(std::size_t cell) const { return strength.empty() ? 1 : strength[cell]; }
-  /// Share of a contact of two spheres. Only sisters, which are born deep in each other, come apart
-  /// slowly; neighbours hold a daughter's place with full force, newborn or not: else they fell
-  /// into the mother's place, or into each other, before they were strong.
+  /// Share of a contact of two spheres. Only sisters, which are born deep in each other, separate
+  /// slowly. Neighbours act on a daughter with full force, newborn or not: otherwise they would
+  /// move into the mother's place, or into each other, before she is strong.
   double pair_share(std::size_t a, std::size_t b) const {
     if (strength.empty()) return 1;
     const bool sisters = mother.empty() || (mother[a] >= 0 && mother[a] == mother[b]);
@@ -86,7 +87,7 @@ struct CellData {
   }
 };
 
-/// The blocks of unknowns these cells contribute.
+/// Blocks of unknowns of these cells.
 std::vector<solve::Block> make_blocks(const State& state);
 
 }  // namespace acinus::cbm

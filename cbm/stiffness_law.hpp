@@ -1,6 +1,6 @@
 #pragma once
-/// How the modulus of a sphere grows with its relative overlap d, so that spheres carry what
-/// deformable cells carry in dense tissue: E~ = E + a1 d^4   [VanLiedekerke2020, Eq. (22)]
+/// Growth of the modulus of a sphere with its relative overlap d, so that spheres carry the loads
+/// of deformable cells in dense tissue: E~ = E + a1 d^4   [VanLiedekerke2020, Eq. (22)]
 
 #include <algorithm>
 #include <cmath>
@@ -8,35 +8,37 @@
 
 namespace acinus::cbm {
 
-/// E~(d) - E = sum a d^power, or a table, up to `range`, on along the tangent from there (level
-/// where that falls), and constant from kLawCap ranges on: a law is known where it was fitted only,
-/// and beyond it must neither jump nor run away.
+/// Stiffness law E~(d) - E = sum a d^power, or a table. It holds up to `range`, continues along the
+/// tangent (constant where that falls), and is constant from kLawCap ranges on: a law is known in
+/// the range of its fit only, and beyond it must neither jump nor grow without limit.
 struct StiffnessLaw {
   struct Term {
     double factor = 0;  ///< kPa
-    double power = 4;   ///< > 1: a cell that is hardly touched is as soft as ever
+    double power = 4;   ///< > 1: a cell with small overlaps keeps its modulus
   };
   struct Knot {
     double overlap = 0, added = 0;  ///< d, and E~ - E there, kPa
   };
   std::vector<Term> term;
-  /// In place of terms: linear between knots of rising d, level before the first one.
+  /// Alternative to terms: linear between knots of rising d, constant before the first one.
   std::vector<Knot> table{};
   double range = 0.2;  ///< largest d of the fit, and of the table
-  /// By how much less than its radius a crowded sphere reaches to a rigid wall, over its radius:
-  /// deformable cells fill the room at a wall, spheres leave some of it free, see wall_face.
+  /// Recess of a crowded sphere at a rigid wall, over its radius: its surface ends by this much
+  /// short of the radius. Deformable cells fill the space at a wall, spheres leave some of it free,
+  /// see wall_face.
   double wall_recess = 0;
-  /// d is the mean over the contacts of a cell, as [VanLiedekerke2020] words it, not their sum over
-  /// twelve.
+  /// True if d is the mean over the contacts of a cell, as in the words of [VanLiedekerke2020], not
+  /// their sum over twelve.
   bool mean_of_contacts = false;
-  /// A single neighbour pressed in deeper than the law was fitted for counts, see modulus_toward.
+  /// True if a single neighbour with an overlap beyond the range of the law counts, see
+  /// modulus_toward.
   bool single_overlaps = true;
 
   bool corrects() const { return !term.empty() || !table.empty(); }
 };
 
-/// E~ = E + a1 d^4 in the paper's own words and with its a1 = 4e6 Pa. In loose tissue spheres
-/// become far too stiff by it (docs/decisions/0036.md).   [VanLiedekerke2020, Eq. (22), Table 1]
+/// Law of the paper, E~ = E + a1 d^4 with its a1 = 4e6 Pa. In loose tissue it makes spheres far too
+/// stiff (docs/decisions/0036.md).   [VanLiedekerke2020, Eq. (22), Table 1]
 inline StiffnessLaw paper_law() {
   StiffnessLaw law;
   law.term.push_back({4e3, 4});
@@ -48,15 +50,15 @@ inline StiffnessLaw paper_law() {
 /// Largest recess of a law.
 inline constexpr double kLargestRecess = 0.5;
 
-/// Where a law ends to grow, over its range.
+/// End of the growth of a law, over its range.
 inline constexpr double kLawCap = 1.5;
 
-/// A modulus and its derivative by d, kPa.
+/// Modulus and its derivative by d, kPa.
 struct Modulus {
   double value = 0, slope = 0;
 };
 
-/// What a table adds at d, and its slope there; on the last knot that of the stretch before it.
+/// Increment of a table at d, and its slope; on the last knot that of the interval before it.
 inline Modulus look_up(const std::vector<StiffnessLaw::Knot>& table, double d) {
   if (d <= table.front().overlap) return {table.front().added, 0};
   auto after = std::lower_bound(
@@ -68,7 +70,7 @@ inline Modulus look_up(const std::vector<StiffnessLaw::Knot>& table, double d) {
   return {before->added + slope * (d - before->overlap), slope};
 }
 
-/// E~ of a cell of modulus `young` at the overlap d >= 0.
+/// Modulus E~ of a cell of modulus `young` at the overlap d >= 0.
 inline Modulus corrected_modulus(const StiffnessLaw& law, double young, double d) {
   Modulus m{young, 0};
   const double within = d < law.range ? d : law.range;
@@ -90,17 +92,17 @@ inline Modulus corrected_modulus(const StiffnessLaw& law, double young, double d
   return m;
 }
 
-/// Relative overlap, over the range of the law, that a single neighbour may have before its own
-/// overlap counts: in the clump a law was found in none had more when all had that on average.
+/// Relative overlap, over the range of the law, up to which a single neighbour's own overlap does
+/// not count: in the clump that a law was fitted to, none had more when this was the average.
 inline constexpr double kOwnOverlap = 1;
 
 /// Modulus of one side of a contact.
 struct FaceModulus : Modulus {
-  bool own = false;  ///< set by the overlap of this contact alone, not by the crowd
+  bool own = false;  ///< true if set by the overlap of this contact alone, not by the crowd
 };
 
-/// E~ of a cell toward one neighbour. d is a mean over twelve and says little where one neighbour
-/// is pressed in much deeper than all others, as daughters in dense tissue are: there the cell is
+/// Modulus E~ of a cell toward one neighbour. d is a mean over twelve and unsuitable where one
+/// neighbour overlaps much more than all others, as daughters in dense tissue do: there the cell is
 /// as stiff as if all overlapped as much, less the range of the law.
 /// @param crowd    E~(d) and its slope
 /// @param overlap  of this pair, over the sum of the radii
@@ -114,15 +116,15 @@ inline FaceModulus modulus_toward(const StiffnessLaw& law, double young, const M
   return {crowd};
 }
 
-/// How a crowded sphere meets a rigid wall: with a face, so nearer and stiffer than a round cap.
+/// Contact of a crowded sphere with a rigid wall: a flat face, closer and stiffer than a round cap.
 struct WallFace {
-  double recess = 0;   ///< over its radius: how much later than at its radius
+  double recess = 0;   ///< recess of the face from the radius, over the radius
   double modulus = 0;  ///< kPa
   double slope = 1;    ///< of this modulus by E~
 };
 
-/// Of a sphere of modulus E~ whose law starts at E: a cap while it is as soft as that. What the law
-/// adds counts twice, with any recess. (docs/decisions/0022.md)
+/// Wall face of a sphere of modulus E~ whose law starts at E: a cap while the modulus is E. The
+/// increment of the law counts twice, with any recess. (docs/decisions/0022.md)
 inline WallFace wall_face(const StiffnessLaw& law, double young, double modulus) {
   const double stiffened = std::max(0.0, modulus - young);
   return {law.wall_recess * (stiffened / modulus) * (stiffened / modulus), modulus + stiffened,

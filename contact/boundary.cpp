@@ -15,13 +15,13 @@
 namespace acinus::contact {
 namespace {
 
-constexpr double kEnd = 1e-9;  ///< parameters this near 0 or 1 are the segment's end
-constexpr double kGone = 1e9;  ///< um behind its place
+constexpr double kEnd = 1e-9;  ///< distance from 0 or 1 at which a parameter is at the end
+constexpr double kGone = 1e9;  ///< um, displacement of a wall that vanished
 
 }  // namespace
 
 Vec3 Plane::point_at(double time) const {
-  // A step that ends in the moment a wall vanishes still meets it.
+  // A step that ends at the time at which a wall vanishes still includes it.
   if (time > opens + kSameTime) return point - kGone * normal;
   const double moved = std::min(std::abs(speed) * std::max(time, 0.0), travel);
   return point + std::copysign(moved, speed) * normal;
@@ -74,8 +74,8 @@ Gap gap_to_wall(const Pipette& p, const Vec3& x, double time) {
   const double along = d.dot(p.axis);
   const Vec3 across = d - along * p.axis;
   const double r = across.norm();
-  // From the middle of the rectangle, and from the sides of the smaller one that the corners go
-  // round.
+  // Position relative to the middle of the rectangle, then relative to the sides of the smaller
+  // rectangle about whose corners the rounding is centred.
   const double u = r - p.radius - 0.5 * p.thickness, v = along - 0.5 * p.length;
   const double side = std::abs(u) - 0.5 * p.thickness + p.lip,
                end = std::abs(v) - 0.5 * p.length + p.lip;
@@ -97,14 +97,14 @@ double shape_radius(const Capsule& c, double time) { return -c.radius_at(time); 
 double shape_radius(const Pipette&, double) { return kFlat; }
 
 void stop_wall(Plane& p, double time) {
-  p.point = p.point_at(time);  // far away if it is gone
+  p.point = p.point_at(time);  // far away if it vanished
   p.opens = Plane{}.opens;
   p.speed = 0;
 }
 
 void stop_wall(Capsule& c, double time) {
   c.radius = c.radius_at(time);
-  c.speed = 0;  // and one that is open has an infinite radius
+  c.speed = 0;  // one that vanished has an infinite radius
 }
 
 void stop_wall(Pipette& p, double time) {
@@ -146,8 +146,8 @@ bool is_local_minimum(const Vessels& vessels, int segment, const Vec3& x, const 
       const bool starts_here = joint[other][0] == node;
       const bool there = starts_here ? at_start(o) : at_finish(o);
       if (here || there) {
-        // Both describe the surface about this joint, and the nearer one counts: segments may
-        // differ in radius where they meet. On a tie a side wall goes first, then the lower number.
+        // Both segments describe the surface about this joint, and the nearer one counts: segments
+        // may differ in radius at a joint. On a tie a side wall comes first, then the lower number.
         if (o.gap < gap.gap - kEnd) return false;
         if (here && o.gap <= gap.gap + kEnd && (!there || other < segment)) return false;
       }

@@ -1,6 +1,6 @@
 #pragma once
-/// What stands around the cells and has no unknowns of its own, by name: planes, a capsule,
-/// pipettes, vessels, static meshes.
+/// Boundary of the cells. Its obstacles are walls (planes, capsules, pipettes), vessels and static
+/// meshes.
 
 #include <cstddef>
 #include <limits>
@@ -18,35 +18,36 @@
 
 namespace acinus::contact {
 
-// Walls: obstacles given by a formula, that have a name and may move and vanish. A kind of wall is
-// a struct with name, material and opens, a Partner, its line in for_each_wall and one of each of
-// the functions below; all that meets walls goes through these.
+// Walls: obstacles given by a formula. Each has a name, may move and may vanish. A kind of wall
+// consists of a struct with name, material and opens, a Partner, a line in for_each_wall and one
+// overload of each function below; all code that handles walls goes through these.
 
-/// Cells stay where (x - point).normal >= 0. It may move along its normal and, in the end, vanish.
+/// Half space (x - point).normal >= 0 that cells stay in. It may move along its normal and may
+/// vanish.
 struct Plane {
   std::string name;
   Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();
   double speed = 0;   ///< um/s along the normal
-  double travel = 0;  ///< um, where the motion stops
+  double travel = 0;  ///< um, distance after which the motion stops
   Material material;
-  double opens = std::numeric_limits<double>::infinity();  ///< s, after that it is gone
-  Vec3 point_at(double time) const;  ///< out of any cell's reach once it is gone
+  double opens = std::numeric_limits<double>::infinity();  ///< s, time at which it vanishes
+  Vec3 point_at(double time) const;  ///< out of any cell's reach once it vanished
 };
 
-/// A rigid sphere seen from inside, which may shrink and, in the end, vanish.
+/// Rigid sphere seen from inside. It may shrink and may vanish.
 struct Capsule {
   std::string name;
   Vec3 center = Vec3::Zero();
   double radius = 0;
   double speed = 0;  ///< um/s, shrink rate
   double min_radius = 0;
-  double opens = std::numeric_limits<double>::infinity();  ///< s, after that it is gone
+  double opens = std::numeric_limits<double>::infinity();  ///< s, time at which it vanishes
   Material material;
-  double radius_at(double time) const;  ///< infinite once it is open
+  double radius_at(double time) const;  ///< infinite once it vanished
 };
 
-/// A rigid tube with a rounded rim at both ends; cells meet its inside, its outside and its rims.
-/// Cut along the axis its wall is a rectangle with round corners.
+/// Rigid tube with a rounded rim at both ends. Cells touch its inside, its outside and its rims. In
+/// a section along the axis the tube wall is a rectangle with rounded corners.
 struct Pipette {
   std::string name;
   Vec3 mouth = Vec3::Zero();  ///< centre of the plane in which the tube begins
@@ -55,7 +56,7 @@ struct Pipette {
   double thickness = 0;       ///< um, of the wall
   double lip = 0;             ///< um, radius of the rims; at most half the thickness and the length
   double length = 0;          ///< um, along the axis
-  double opens = std::numeric_limits<double>::infinity();  ///< s, after that it is gone
+  double opens = std::numeric_limits<double>::infinity();  ///< s, time at which it vanishes
   Material material;
 };
 
@@ -64,7 +65,7 @@ struct Vessels {
   /// Surface that cells touch in place of the cones of the network; null: the cones.
   std::shared_ptr<const WallMesh> wall;
   Material material;
-  std::vector<std::vector<int>> segments_of_node;  ///< for finding chains
+  std::vector<std::vector<int>> segments_of_node;  ///< [node] segments that end there
 };
 
 struct Boundary {
@@ -95,31 +96,30 @@ Gap gap_to_wall(const Plane& p, const Vec3& x, double time);
 Gap gap_to_wall(const Capsule& c, const Vec3& x, double time);
 Gap gap_to_wall(const Pipette& p, const Vec3& x, double time);
 
-/// um, of the body whose contact with a sphere stands for that with the wall: kFlat, or negative
-/// for one that is seen from inside.
+/// Radius of the sphere that stands for the wall in the contact law of two spheres, um: kFlat for a
+/// flat wall, negative for one seen from inside.
 double shape_radius(const Plane& p, double time);
 double shape_radius(const Capsule& c, double time);
 double shape_radius(const Pipette& p, double time);
 
-/// Lets it stay for ever where it is at this moment.
+/// Freeze a wall in its state at `time`: it no longer moves or vanishes.
 void stop_wall(Plane& p, double time);
 void stop_wall(Capsule& c, double time);
 void stop_wall(Pipette& p, double time);
 
-/// As messages name it.
+/// Name of a wall in messages.
 std::string wall_label(const Plane& p);
 std::string wall_label(const Capsule& c);
 std::string wall_label(const Pipette& p);
 
-/// Gap to the walls of one segment, with what gap_to_segment says of its axis. Where there are none
-/// within `reach`, um, the gap is to the segment.
+/// Gap to the surface about the vessels at one segment, with the axis data of gap_to_segment. Where
+/// this surface has no triangle within `reach`, um, the gap is that to the cone of the segment.
 Gap gap_to_wall(const Vessels& vessels, int segment, const Vec3& x, double reach);
 
-/// Closest segments of a chain count once: whether the contact of a sphere with `segment` is a
-/// local minimum of the distance along the network, so that a straight chain of any spacing gives
-/// exactly one contact (docs/decisions/0003.md). Where segments of different radius meet, the
-/// nearest one counts.
-/// @param gap the sphere centre's gap to this segment
+/// True if the contact of a sphere with `segment` is a local minimum of the distance along the
+/// network. A straight chain of any spacing then gives exactly one contact
+/// (docs/decisions/0003.md). At a joint of segments of different radius the nearest segment counts.
+/// @param gap  of the sphere's centre to this segment
 bool is_local_minimum(const Vessels& vessels, int segment, const Vec3& x, const Gap& gap);
 
 }  // namespace acinus::contact

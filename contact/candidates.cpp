@@ -16,17 +16,17 @@
 namespace acinus::contact {
 namespace {
 
-/// Self contact starts this many rest edges away on the surface.
+/// Least distance along the surface between the sides of a self-contact, in rest edges.
 constexpr double kSelfRings = 3.0;
 
-/// Where a triangle's centre lies on the unit rest shape.
+/// Centre of a triangle on the unit rest shape.
 Vec3 rest_center(const geometry::Topology& t, std::size_t triangle) {
   Vec3 sum = Vec3::Zero();
   for (int c : t.triangle[triangle]) sum += t.rest[c];
   return sum / 3;
 }
 
-/// On the rest shape, far enough along the surface to count as another part of it.
+/// True if a site and a triangle are far enough apart along the rest shape for self-contact.
 bool far_on_surface(const SurfaceBody& b, Quadrature q, std::size_t site, std::size_t triangle) {
   const geometry::Topology& t = *b.topology;
   Vec3 from;
@@ -41,9 +41,9 @@ bool far_on_surface(const SurfaceBody& b, Quadrature q, std::size_t site, std::s
   return (from - rest_center(t, triangle)).norm() > kSelfRings * t.mean_rest_length;
 }
 
-/// Whether a body is so far from star-shaped that it might meet itself. While all normals are
+/// True if a body is so far from star-shaped that self-contact is possible. While all normals are
 /// within about 70 degrees of the direction from the centre, facing sides open at 40 degrees or
-/// more and come close at the bottom of a cleft only, where they are neighbours along the surface.
+/// more and come close only at the bottom of a cleft, where they are neighbours along the surface.
 bool may_fold(const SurfaceBody& b) {
   constexpr double kStar = 0.35;
   Vec3 center = Vec3::Zero();
@@ -56,8 +56,9 @@ bool may_fold(const SurfaceBody& b) {
   return false;
 }
 
-/// Distances to discs, um, up to the end of the last eight: never more than to the triangles.
-/// @param from  um from the origin of the discs
+/// Distance bounds of discs, um, up to the end of the last eight: never above the distances of the
+/// triangles.
+/// @param from  position relative to the origin of the discs, um
 ACINUS_KERNEL void compute_bounds(const float* number, std::size_t n,
                                   const std::array<float, 3>& from, float* bound) {
   using Floats = LaneOf<float>;
@@ -78,8 +79,8 @@ ACINUS_KERNEL void compute_bounds(const float* number, std::size_t n,
   }
 }
 
-/// The part of space where anything of one body may come near another: within the other's box and
-/// not behind it, seen along the line between the two.
+/// Region in which parts of one body may be near another: within the other's box, and not behind it
+/// along the axis between the two.
 struct Reach {
   Vec3 middle, half;
   Vec3 axis = Vec3::Zero();  ///< away from the other body
@@ -87,17 +88,17 @@ struct Reach {
 
   bool includes(const Vec3& center, double radius) const {
     const Vec3 outside = (center - middle).cwiseAbs() - half;
-    // Without branches: which of the four decides cannot be foreseen.
+    // Branch-free, since the deciding condition of the four is unpredictable.
     const int inside = int{outside[0] <= radius} & int{outside[1] <= radius} &
                        int{outside[2] <= radius} & int{center.dot(axis) - limit <= radius};
     return inside != 0;
   }
 };
 
-/// How far apart, um, what a list holds may be.
-double find_margin(const SearchOptions& o) { return std::max(o.range, o.max_depth) + o.skin; }
+/// Largest distance of the entries of a list, um.
+double compute_margin(const SearchOptions& o) { return std::max(o.range, o.max_depth) + o.skin; }
 
-/// Makes lists, one after the other.
+/// Builder of candidate lists, reused from list to list.
 class ListBuilder {
  public:
   void start(const SearchOptions& o) { o_ = o; }
@@ -111,9 +112,9 @@ class ListBuilder {
     margin_ = std::max(out_, depth_) + o_.skin;
     list_ = &list;
     list.start.assign(1, 0);
-    find_reach();
+    compute_reach();
     origin_ = 0.5 * (b.box.low + b.box.high);
-    find_included(near_a_, b.center, b.reach);
+    select_near(near_a_, b.center, b.reach);
     discs_.reset(included_.size());
     for (const int t : included_) discs_.add(b, t, origin_);
     near_.reset(discs_.n);
@@ -121,13 +122,13 @@ class ListBuilder {
     near_index_.resize(discs_.triangle.size());
     clear_block();
     if (discs_.n == 0) return;
-    find_included_sites();
-    for (const int s : included_) look_from(s);
+    select_near_sites();
+    for (const int s : included_) add_site(s);
     flush();
   }
 
  private:
-  void find_reach() {
+  void compute_reach() {
     auto make = [this](const Box& box) {
       return Reach{0.5 * (box.low + box.high), (0.5 * (box.high - box.low)).array() + margin_};
     };
@@ -146,9 +147,9 @@ class ListBuilder {
     near_b_.limit = margin_ - low;
   }
 
-  /// Writes which places (with their radii, if any) are included. No branch to be mispredicted.
-  void find_included(const Reach& reach, std::span<const Vec3> place,
-                     std::span<const double> radius) {
+  /// Selects the places (with their radii, if any) within a region. Branch-free: no misprediction.
+  void select_near(const Reach& reach, std::span<const Vec3> place,
+                   std::span<const double> radius) {
     included_.resize(place.size());
     std::size_t n = 0;
     for (std::size_t k = 0; k < place.size(); ++k) {
@@ -158,19 +159,19 @@ class ListBuilder {
     included_.resize(n);
   }
 
-  /// Writes which sites of a are near b.
-  void find_included_sites() {
+  /// Selects the sites of a near b.
+  void select_near_sites() {
     switch (o_.quadrature) {
       case Quadrature::kThreePoint:
-        return find_included(near_b_, a_->center, a_->reach);
+        return select_near(near_b_, a_->center, a_->reach);
       case Quadrature::kNodes:
-        return find_included(near_b_, a_->node, {});
+        return select_near(near_b_, a_->node, {});
       case Quadrature::kNodesAndEdges:
         break;
     }
     place_.resize(n_sites(*a_, o_.quadrature));
     for (std::size_t s = 0; s < place_.size(); ++s) place_[s] = site_place(*a_, o_.quadrature, s);
-    find_included(near_b_, place_, {});
+    select_near(near_b_, place_, {});
   }
 
   void compute_bounds_from(const Discs& discs, const Vec3& x) {
@@ -180,10 +181,10 @@ class ListBuilder {
                    bound_.data());
   }
 
-  /// Adds the points of one site to the block, if they come near.
-  void look_from(std::size_t site) {
+  /// Adds the points of one site to the block if they are near.
+  void add_site(std::size_t site) {
     const Vec3 at = site_place(*a_, o_.quadrature, site);
-    // The points of a site are no farther from its place than this.
+    // Bound of the distance of a site's points from its position, um.
     const double radius = 0.5 * site_reach(*a_, o_.quadrature, site);
     compute_bounds_from(discs_, at);
     const auto far = static_cast<float>(margin_ + radius + kRounding);
@@ -191,7 +192,7 @@ class ListBuilder {
     int* const near = near_index_.data();
     const float* const bound = bound_.data();
     int n = 0;
-    for (int i = 0; i < n_disc; ++i) {  // no branch to be mispredicted
+    for (int i = 0; i < n_disc; ++i) {  // branch-free
       near[n] = i;
       n += bound[i] <= far ? 1 : 0;
     }
@@ -220,7 +221,8 @@ class ListBuilder {
   }
 
   /// Adds a point to the block with the triangles near its site that may be closest to it before
-  /// the list expires. @param no_more  um, the closest is no farther
+  /// the list expires.
+  /// @param no_more  um, bound of the distance of the closest one
   void add(int point, double no_more) {
     const Vec3 x = point_position(*a_, point_stencil(*a_, o_.quadrature, point));
     compute_bounds_from(near_, x);
@@ -234,7 +236,7 @@ class ListBuilder {
     float* const bound = wide_bound_.data();
     std::size_t end = first, likely = first;
     float least = matters;
-    for (std::size_t i = 0; i < near_.n; ++i) {  // no branch here either
+    for (std::size_t i = 0; i < near_.n; ++i) {  // branch-free
       const float here = bound_[i];
       triangle[end] = near_.triangle[i];
       bound[end] = here;
@@ -257,10 +259,11 @@ class ListBuilder {
   /// Lists the points of the block whose gap may become a contact before the list expires.
   void flush() {
     constexpr double kAnywhere = 1e150;
-    const double turn = 2 * o_.skin + kRounding;  // of two triangles, which is the closer
+    const double turn =
+        2 * o_.skin + kRounding;  // motion that may change which of two triangles is closer
     wide_distance_.assign(n_wide_, std::numeric_limits<float>::infinity());
     find_closest(*b_, {wide_triangle_, wide_bound_}, turn, kAnywhere, block_, wide_distance_);
-    find_gaps(*b_, Place::kExact, block_);
+    compute_gaps(*b_, Place::kExact, block_);
     std::size_t end = list_->triangle.size();
     list_->triangle.resize(end + n_wide_ + 1);
     list_->bound.resize(end + n_wide_ + 1);
@@ -274,7 +277,7 @@ class ListBuilder {
       const auto matters = static_cast<float>(std::abs(gap) + turn);
       const std::size_t first = end;
       std::size_t closest = first;
-      for (std::uint32_t k = block_.begin[n]; k < block_.end[n]; ++k) {  // no branch again
+      for (std::uint32_t k = block_.begin[n]; k < block_.end[n]; ++k) {  // branch-free
         triangle[end] = wide_triangle_[k];
         bound[end] = wide_distance_[k];
         closest = triangle[end] == block_.triangle[n] ? end : closest;
@@ -304,8 +307,8 @@ class ListBuilder {
   std::vector<Vec3> place_;  ///< of the sites of a
   std::vector<int> included_;
   Vec3 origin_ = Vec3::Zero();  ///< of the discs
-  Discs discs_;                 ///< triangles of b that anything of a may come near
-  // of the site looked from:
+  Discs discs_;                 ///< triangles of b near any part of a
+  // of the current site:
   std::vector<int> near_index_;  ///< of discs_
   Discs near_;                   ///< those that may be closest to one of its points
   std::vector<float> bound_;     ///< um, of the discs of the last call
@@ -313,7 +316,7 @@ class ListBuilder {
   PointBlock block_;
   std::array<int, PointBlock::kSize> point_{};
   std::size_t n_wide_ = 0;
-  std::vector<int> wide_triangle_;  ///< their candidates
+  std::vector<int> wide_triangle_;  ///< candidates of the points
   std::vector<float> wide_bound_;   ///< um
   std::vector<float> wide_distance_;
 };
@@ -323,7 +326,7 @@ class ListBuilder {
 std::vector<Candidates> list_pairs(std::span<const SurfaceBody> bodies,
                                    std::span<const SurfaceBody> fixed, const SearchOptions& o,
                                    double reserve) {
-  const double margin = find_margin(o) + reserve;
+  const double margin = compute_margin(o) + reserve;
   std::vector<Box> boxes, fixed_boxes;
   for (const SurfaceBody& b : bodies) boxes.push_back(b.box);
   for (const SurfaceBody& b : fixed) fixed_boxes.push_back(b.box);
@@ -353,7 +356,7 @@ std::vector<Candidates> list_pairs(std::span<const SurfaceBody> bodies,
 
 void fill_candidates(std::span<const SurfaceBody> bodies, std::span<const SurfaceBody> fixed,
                      const SearchOptions& o, std::span<Candidates* const> lists) {
-  const double margin = find_margin(o);
+  const double margin = compute_margin(o);
   const auto may_touch = [&](const SurfaceBody& a, const SurfaceBody& b) {
     return &a == &b ? may_fold(a) : a.box.grown(margin).overlaps(b.box);
   };

@@ -1,5 +1,6 @@
 #pragma once
-/// Which triangles each probing point of one surface may meet on another, and the closest of them.
+/// Candidate lists of the narrow phase: the triangles of one surface that may be closest to each
+/// probing point of another.
 
 #include <cstdint>
 #include <span>
@@ -12,14 +13,14 @@ namespace acinus::contact {
 
 struct SearchOptions {
   Quadrature quadrature = Quadrature::kThreePoint;
-  double range = 0;       ///< um, largest gap of interest
-  double max_depth = 0;   ///< um, deepest (negative) gap looked for
-  double skin = 0;        ///< um, relative movement that a list outlives
-  double self_range = 0;  ///< um, gap below which a surface meets itself; 0 = never
+  double range = 0;       ///< um, largest gap of a contact
+  double max_depth = 0;   ///< um, largest overlap of a contact
+  double skin = 0;        ///< um, Verlet skin: relative motion that a list allows for
+  double self_range = 0;  ///< um, largest gap of a self-contact; 0: none
 };
 
-/// Points of a near b and the triangles that may be closest to each; complete while the two bodies
-/// moved relative to each other by no more than the skin.
+/// Candidate list of a pair of bodies: points of a near b with the triangles that may be closest to
+/// each. Complete while the bodies have moved relative to each other by no more than the skin.
 struct Candidates {
   int body_a = 0, body_b = 0;
   std::vector<int> point;            ///< of a, ascending
@@ -35,30 +36,31 @@ struct Candidates {
   }
 };
 
-/// A body by its number: those that probe come first, then those that are only probed.
+/// Body by its number: `bodies`, which probe, come first, then `fixed`, which are only probed.
 inline const SurfaceBody& body_at(std::span<const SurfaceBody> bodies,
                                   std::span<const SurfaceBody> fixed, int k) {
   const std::size_t i = k;
   return i < bodies.size() ? bodies[i] : fixed[i - bodies.size()];
 }
 
-/// Empty lists, ascending, for all that may touch once boxes have come closer by `reserve`: pairs
-/// of bodies both ways, bodies with themselves if o.self_range > 0, and bodies with `fixed`, which
-/// are only probed, never probe, and are numbered after `bodies`.
+/// Empty lists, ascending, for all pairs of bodies that may touch once their boxes have approached
+/// by `reserve`, um: each pair of `bodies` in both orders, each body with itself if o.self_range >
+/// 0, and each body with those of `fixed`. Fixed bodies are only probed and are numbered after
+/// `bodies`.
 std::vector<Candidates> list_pairs(std::span<const SurfaceBody> bodies,
                                    std::span<const SurfaceBody> fixed, const SearchOptions& o,
                                    double reserve);
 
-/// Fills lists of such pairs for where their bodies are now, on all threads.
+/// Fill candidate lists at the present positions of their bodies, on all threads.
 void fill_candidates(std::span<const SurfaceBody> bodies, std::span<const SurfaceBody> fixed,
                      const SearchOptions& o, std::span<Candidates* const> lists);
 
-/// Closest features of one candidate list, appended in order of points.
-/// Rejected: normals that do not oppose each other, gaps outside [-max_depth, range]. The closest
-/// triangle decides, opposing or not: nothing that turns while a list lasts must choose what is on
-/// it, for the result does not depend on when the list was made.
-/// @param moved  um, bound of what the two bodies moved relative to each other since then: points
-///               and triangles that cannot touch yet are skipped
+/// Closest features of one candidate list, appended in order of points. Contacts with normals that
+/// do not oppose each other and with gaps outside [-max_depth, range] are rejected. The closest
+/// triangle decides even if it is then rejected: the result must not depend on the age of the list,
+/// so nothing that rotates during its life may select its triangles.
+/// @param moved  um, bound of the relative motion of the two bodies since the list was made; points
+///     and triangles that cannot touch yet are skipped
 /// @return number of points examined
 std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
                           std::span<const SurfaceBody> fixed, const SearchOptions& options,

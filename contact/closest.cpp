@@ -10,12 +10,13 @@
 namespace acinus::contact {
 namespace {
 
-/// um, below which the closest point gives no normal: its weights are rounded to 1e-7 of an edge.
+/// Distance below which the closest point gives no normal, um: its weights are rounded to 1e-7 of
+/// an edge.
 constexpr double kNoDirection = 1e-6;
 
 using Triangle = std::array<int, 3>;
 
-/// Eight vectors out of an array [index][3].
+/// Eight vectors from an array [index][3].
 ACINUS_INLINE Lane3 gather3(const double* from, const int* index) {
   const double* p[kLanes];
   for (int l = 0; l < kLanes; ++l) p[l] = from + 3 * static_cast<std::ptrdiff_t>(index[l]);
@@ -27,7 +28,7 @@ ACINUS_INLINE Lane3 gather3(const double* from, const int* index) {
   return {component(0), component(1), component(2)};
 }
 
-/// The same corner of eight triangles.
+/// Same corner of eight triangles.
 ACINUS_INLINE Lane3 gather_corner(const double* node, const Triangle* triangle, const int* index,
                                   std::size_t corner) {
   int at[kLanes];
@@ -61,14 +62,14 @@ ACINUS_KERNEL void measure(const double* node, const Triangle* triangle, const d
   }
 }
 
-/// Collects pairs, measures them together and keeps the closest triangle of each point.
+/// Collector of pairs that measures them together and keeps the closest triangle of each point.
 class Measurer {
  public:
   Measurer(const SurfaceBody& b, std::span<const int> triangle, std::span<float> distance,
            PointBlock& block)
       : b_(b), triangle_(triangle), distance_(distance), block_(block) {}
 
-  /// Adds a pair if `wanted`: no branch to be mispredicted.
+  /// Adds a pair if `wanted`, without a branch.
   void add(int point, std::uint32_t candidate, bool wanted = true) {
     pairs_.point[pairs_.n] = point;
     pairs_.candidate[pairs_.n] = candidate;
@@ -109,8 +110,8 @@ class Measurer {
   void keep_if_closer(int k) {
     const int point = pairs_.point[k], triangle = pairs_.triangle[k];
     const double squared = pairs_.squared[k], least = block_.squared[point];
-    // Ties (an edge two triangles share) go to the lower number: the order of the list, which
-    // depends on when it was made, must not show.
+    // A tie (an edge that two triangles share) goes to the lower number: the result must not depend
+    // on the order of the list, hence on the time at which it was made.
     if (!(squared < least || (squared == least && triangle < block_.triangle[point]))) return;
     block_.squared[point] = squared;
     block_.triangle[point] = triangle;
@@ -125,10 +126,10 @@ class Measurer {
   PointTrianglePairs pairs_;
 };
 
-/// find_gaps of all points, up to the end of the last eight. @pre every triangle is one
-ACINUS_KERNEL void compute_gaps(const double* node, const double* node_normal,
-                                const Triangle* triangle, const int* of, bool exact,
-                                PointBlock& block) {
+/// Gaps and normals of all points, up to the end of the last eight. @pre all triangles are valid
+ACINUS_KERNEL void gap_kernel(const double* node, const double* node_normal,
+                              const Triangle* triangle, const int* of, bool exact,
+                              PointBlock& block) {
   const Lane one = lane_of(1);
   for (int k = 0; k < block.n; k += kLanes) {
     int corner[3][kLanes], point[kLanes];
@@ -191,17 +192,17 @@ void find_closest(const SurfaceBody& b, const ListedTriangles& candidates, doubl
   }
 }
 
-void find_gaps(const SurfaceBody& b, Place place, PointBlock& p) {
+void compute_gaps(const SurfaceBody& b, Place place, PointBlock& p) {
   alignas(64) int of[PointBlock::kSize];
   for (int i = 0; i < p.n; ++i) of[i] = std::max(p.triangle[i], 0);
-  for (int i = p.n; i % kLanes != 0; ++i) {  // idle lanes look at a corner
+  for (int i = p.n; i % kLanes != 0; ++i) {  // idle lanes use a corner
     of[i] = 0;
     for (int m = 0; m < 3; ++m) p.x[3 * i + m] = 0;
     p.weight_b[i] = p.weight_c[i] = 0;
     p.rounded[0][i] = p.rounded[1][i] = 0;
   }
-  compute_gaps(b.node[0].data(), b.node_normal[0].data(), b.triangle->data(), of,
-               place == Place::kExact, p);
+  gap_kernel(b.node[0].data(), b.node_normal[0].data(), b.triangle->data(), of,
+             place == Place::kExact, p);
 }
 
 }  // namespace acinus::contact

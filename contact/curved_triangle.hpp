@@ -1,6 +1,6 @@
 #pragma once
-/// A triangle of a surface with the sphere that the local curvature fits to it: the "circumscribing
-/// sphere" of the model paper (Fig. 2c), through its three corners.
+/// Triangle of a surface with the sphere through its three corners that has the local curvature:
+/// the "circumscribing sphere" of the model paper (Fig. 2c).
 
 #include <array>
 #include <span>
@@ -19,21 +19,22 @@ struct CurvedTriangle {
   double curvature;            ///< 1/um, mean curvature: 1/R on a sphere, 0 flat, negative hollow
 };
 
-/// A triangle with area; a curvature that no sphere through the corners has (above 1/circumradius)
-/// becomes the largest that one has.
+/// Curved triangle from corners that enclose an area. A curvature above 1/circumradius, which no
+/// sphere through the corners has, becomes 1/circumradius.
 CurvedTriangle make_curved_triangle(const std::array<Vec3, 3>& corner, double curvature);
 
-/// Radius and centre of its sphere if its curvature were `curvature`.
-/// @pre 0 < curvature <= 1/circumradius (asserted)
+/// Sphere through the three corners of a triangle, um.
 struct FittedSphere {
   Vec3 center;
   double radius;
 };
+/// Sphere of a triangle with the given curvature, 1/um, in place of its own.
+/// @pre 0 < curvature <= 1/circumradius (asserted)
 FittedSphere fit_sphere(const CurvedTriangle& t, double curvature);
 
-/// Mean curvature of each triangle of a closed surface, 1/um: the mean over its corners of the
-/// discrete Laplace-Beltrami operator (geometry::compute_mean_curvature), with the sign it has
-/// towards the triangle's own normal. [VanLiedekerke2020, section on contact]
+/// Curved triangles of a closed surface. The mean curvature of each, 1/um, is the mean over its
+/// corners of the discrete Laplace-Beltrami operator (geometry::compute_mean_curvature), with the
+/// sign relative to the triangle's own normal. [VanLiedekerke2020, section on contact]
 std::vector<CurvedTriangle> make_curved_triangles(std::span<const Vec3> node,
                                                   geometry::Triangles triangle);
 

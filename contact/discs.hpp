@@ -1,5 +1,5 @@
 #pragma once
-/// Triangles as discs that hold them, for bounds of distances by the eight.
+/// Bounding discs of triangles, for distance bounds of eight triangles at a time.
 
 #include <cstddef>
 #include <vector>
@@ -9,8 +9,9 @@
 
 namespace acinus::contact {
 
-/// Triangles as discs that hold them, about an origin near them: floats then keep distances to less
-/// than kRounding. Numbers of eight discs lie side by side, [group][kNumbers][lane].
+/// Bounding discs of triangles relative to an origin near them, so that single precision keeps
+/// distances to less than kRounding. The values of eight discs are stored together,
+/// [group][kNumbers][lane].
 struct Discs {
   static constexpr std::size_t kNumbers = 7;  ///< centre, normal, reach
   static constexpr std::size_t kStride = kNumbers * kLanes;
@@ -18,7 +19,7 @@ struct Discs {
   std::vector<int> triangle;
   std::vector<float> number;
 
-  /// Empties, and makes room for `most` discs.
+  /// Clears the discs and reserves storage for `most` of them.
   void reset(std::size_t most) {
     n = 0;
     const std::size_t n_group = (most + kLanes - 1) / kLanes;

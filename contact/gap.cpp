@@ -9,12 +9,12 @@
 namespace acinus::contact {
 namespace {
 
-/// Looks for the place of a surface that is nearest to a point, triangle by triangle.
+/// Search for the place of a surface nearest to a point, triangle by triangle.
 struct NearestTriangle {
   const SurfaceBody& b;
   const Vec3& x;
-  double reach;  ///< um, of interest
-  Gap gap;       ///< so far
+  double reach;  ///< um, largest distance of interest
+  Gap gap;       ///< nearest so far
   double least2;
 
   NearestTriangle(const SurfaceBody& body, const Vec3& point, double within)

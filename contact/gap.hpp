@@ -9,7 +9,7 @@
 
 namespace acinus::contact {
 
-/// Gap of a point to a surrounding surface.
+/// Gap of a point to an obstacle.
 struct Gap {
   double gap = 0;               ///< um, negative inside the obstacle
   Vec3 normal = Vec3::UnitZ();  ///< d gap / d x, unit
@@ -18,13 +18,13 @@ struct Gap {
   double parameter = 0;         ///< vessels: 0..1 along the segment
 };
 
-/// Farther away than `reach` the gap is `reach`, the normal meaningless.
+/// Gap to a triangle surface. Beyond `reach`, um, it is `reach`, and the normal is undefined.
 Gap gap_to_mesh(const SurfaceBody& body, const Vec3& x, double reach);
-/// Gap to some of its triangles, likewise.
+/// Gap to a subset of its triangles, with the same limit.
 Gap gap_to_triangles(const SurfaceBody& body, std::span<const int> triangles, const Vec3& x,
                      double reach);
 
-/// Exact distance to a capsule whose radius runs linearly from one end to the other (round cone).
+/// Exact gap to the round cone of a segment, whose radius varies linearly between its ends.
 Gap gap_to_segment(const geometry::Network& network, int segment, const Vec3& x);
 
 }  // namespace acinus::contact

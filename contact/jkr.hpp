@@ -25,18 +25,18 @@ namespace acinus::contact {
 /// @pre radius and modulus positive and finite, adhesion >= 0 (asserted)
 SphereForce jkr_force(const SpherePair& pair, double overlap, bool was_touching);
 
-/// A point of the JKR curve, on either branch.
+/// Point of the JKR curve, on either branch.
 struct JkrPoint {
   double contact_radius;  ///< um
   double overlap;         ///< um
   double force;           ///< nN, positive = repulsive
 };
 
-/// Eq. (20) and (21) for a given contact radius (um, >= 0).
+/// Point of Eq. (20) and (21) at a given contact radius (um, >= 0).
 JkrPoint jkr_at_radius(const SpherePair& pair, double contact_radius);
 
-/// Overlap at which a pair under a held load rests, um: the inverse of Eq. (20) and (21) on the
-/// branch that is stable under load. A pull beyond the pull-off force gives the overlap at
+/// Equilibrium overlap of a pair under a fixed load, um: the inverse of Eq. (20) and (21) on the
+/// branch that is stable under load. A tension beyond the pull-off force gives the overlap at
 /// pull-off.
 /// @param force  nN, positive = pressed together
 double jkr_overlap(const SpherePair& pair, double force);
@@ -45,12 +45,12 @@ double jkr_overlap(const SpherePair& pair, double force);
 /// U = 8 E a^5/(15 R^2) - (4/3) sqrt(2 pi W E) a^(7/2)/R + pi W a^2
 double jkr_energy(const SpherePair& pair, double contact_radius);
 
-/// Points of the curve with a name.
+/// Characteristic points of the JKR curve.
 struct JkrSpecial {
-  JkrPoint fold;      ///< contact ends here: least overlap -3 a_d^2/R, force -(5/6) pi W R
-  JkrPoint pull_off;  ///< least force, -(3/2) pi W R (Eq. 24): contact ends here under a held load
+  JkrPoint fold;          ///< contact ends here: least overlap -3 a_d^2/R, force -(5/6) pi W R
+  JkrPoint pull_off;      ///< least force, -(3/2) pi W R (Eq. 24): contact ends here at fixed load
   JkrPoint zero_overlap;  ///< force on first contact
-  JkrPoint zero_force;    ///< rest of a free pair
+  JkrPoint zero_force;    ///< equilibrium of a free pair
   double dmt_force;       ///< -2 pi W R, the limit of stiff small spheres
   double vesicle_force;   ///< -pi W R, the limit of a tense membrane
 };

@@ -1,11 +1,11 @@
 #pragma once
-/// Eight adhesive contacts at once: jkr_force in lanes, without branches.
+/// JKR contact law of eight pairs at once: jkr_force in lanes, without branches.
 
 #include "core/numbers/lanes.hpp"
 
 namespace acinus::contact {
 
-/// Answer for eight pairs; all zero where not touching.
+/// Result for eight pairs; all zero without contact.
 struct JkrLanes {
   Lane force;           ///< nN, positive = repulsive
   Lane stiffness;       ///< nN/um, as SphereForce::stiffness
@@ -29,9 +29,9 @@ ACINUS_INLINE Lane lane_cbrt(Lane v) {
   return x;
 }
 
-/// Force of eight pairs on the branch that is stable at held overlap; the scalar jkr_force is its
-/// twin (equal to 1e-12 of the larger of the force's two terms away from the fold). Newton from
-/// above the root of a convex function with a fixed number of steps. Adhesion 0 is Hertz.
+/// Force of eight pairs on the branch that is stable at fixed overlap. Reference: the scalar
+/// jkr_force (equal to 1e-12 of the larger of the force's two terms away from the fold). Newton
+/// from above the root of a convex function with a fixed number of steps. Adhesion 0 is Hertz.
 /// @param radius, modulus  R^ (um) and E^ (kPa), positive
 /// @param adhesion         W, nN/um, not negative
 /// @param overlap          um

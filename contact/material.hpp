@@ -1,11 +1,11 @@
 #pragma once
-/// Material of what stands around the cells.
+/// Material of obstacles.
 
 #include <limits>
 
 namespace acinus::contact {
 
-/// Elastic and adhesive constants of a surrounding surface.
+/// Elastic and adhesive constants of an obstacle.
 struct Material {
   double adhesion = 0;                                     ///< nN/um
   double young = std::numeric_limits<double>::infinity();  ///< kPa

@@ -10,8 +10,8 @@ namespace acinus::contact {
 
 namespace {
 
-/// Where f is 0 between low (f <= 0) and high (f > 0): false position, and the value at an end that
-/// stays is halved (Illinois).
+/// Root of f between low (f <= 0) and high (f > 0) by the Illinois method: false position that
+/// halves the value at an end that stays.
 template <class F>
 double find_root(F f, double low, double high) {
   double f_low = f(low), f_high = f(high), x = low;
@@ -33,12 +33,12 @@ double find_root(F f, double low, double high) {
   return x;
 }
 
-/// 4 sigma0/(pi E): how much faster than c the rim of a pulled disc rises.
+/// Displacement of the rim of a disc under the stress sigma0 over c, 4 sigma0/(pi E).
 double rim_rise(const MaugisPair& pair) {
   return 4.0 * pair.cohesive_stress / (kPi * pair.pair.modulus);
 }
 
-/// The state apart; c is the larger root, the other one is unstable.
+/// State without contact; c is the larger root, the other one is unstable.
 MaugisPoint ring_at_overlap(const MaugisPair& pair, double overlap) {
   const double R = pair.pair.radius, s = rim_rise(pair);
   const double h0 = pair.pair.adhesion / pair.cohesive_stress;
@@ -54,7 +54,7 @@ MaugisCurve make_maugis_curve(const MaugisPair& pair) {
   if (p.adhesion == 0.0) return out;
   ACINUS_ASSERT(pair.cohesive_stress > 0.0);
   out.lambda = maugis_lambda(pair);
-  // At A = 0 the slope vanishes by symmetry; its sign nearby tells which way the curve goes on. JKR
+  // At A = 0 the slope vanishes by symmetry; its sign nearby gives the direction of the curve. JKR
   // (large lambda) turns at A = 6^(-1/3) = 0.55, all others nearer 0.
   constexpr double kNearZero = 1e-4, kBeyondFold = 1.0;
   const auto slope = [&](double a) { return maugis_approach_slope(out.lambda, a); };

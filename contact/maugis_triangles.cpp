@@ -12,27 +12,28 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 using Triangle2 = std::array<Vec2, 3>;
 
-/// Triangles less turned towards the partner than this are seen edge-on: their projection says
-/// nothing about the surface.
+/// Least cosine between the normals of a triangle and of the contact plane. Below it the triangle
+/// is seen edge-on, and its projection is unrelated to the surface.
 constexpr double kFacing = 0.2;
 
-/// How much deeper than they are two spheres are put to see how their stress grows, um. Not less:
-/// at the rim of the contact the stress rises with an infinite slope.
+/// Increment of overlap for the difference quotient of the stress, um. Not smaller: at the rim of
+/// the contact the stress rises with an infinite slope.
 constexpr double kDeeper = 0.005;
 
-/// A sphere this flat counts as a plane, 1/um; its centre still keeps nine digits of the overlap.
+/// Curvature below which a sphere counts as a plane, 1/um; its centre still keeps nine digits of
+/// the overlap.
 constexpr double kPlaneCurvature = 1e-6;
 
 double cross(const Vec2& u, const Vec2& v) { return u.x() * v.y() - u.y() * v.x(); }
 
-/// The corners of a convex polygon: two triangles share at most six.
+/// Convex polygon shared by two triangles: at most six corners.
 struct SharedArea {
   std::array<Vec2, 8> corner;
   int n = 0;
   void add(const Vec2& x) { corner[n++] = x; }
 };
 
-/// What lies left of the line from p to q [Sutherland1974].
+/// Part of a polygon to the left of the line from p to q [Sutherland1974].
 SharedArea cut(const SharedArea& in, const Vec2& p, const Vec2& q) {
   SharedArea out;
   for (int k = 0; k < in.n; ++k) {
@@ -44,7 +45,7 @@ SharedArea cut(const SharedArea& in, const Vec2& p, const Vec2& q) {
   return out;
 }
 
-/// Both counter-clockwise.
+/// Intersection of two counter-clockwise triangles.
 SharedArea intersect(const Triangle2& a, const Triangle2& b) {
   SharedArea shared;
   for (const Vec2& x : a) shared.add(x);
@@ -52,14 +53,15 @@ SharedArea intersect(const Triangle2& a, const Triangle2& b) {
   return shared;
 }
 
-/// Six points, exact to degree 4 [Dunavant1985]: barycentric weights (1 - 2 g, g, g).
+/// Quadrature rule of six points, exact to degree 4 [Dunavant1985]: barycentric weights (1 - 2 g,
+/// g, g).
 struct RulePoint {
   double g, weight;
 };
 constexpr std::array<RulePoint, 2> kRule = {
     {{0.445948490915965, 0.223381589678011}, {0.091576213509771, 0.109951743655322}}};
 
-/// visit(x, area) at the quadrature points of a polygon, cut into triangles about its middle.
+/// Calls visit(x, area) at the quadrature points of a polygon, cut into triangles about its middle.
 template <class Visit>
 void for_each_quadrature_point(const SharedArea& polygon, Visit visit) {
   if (polygon.n < 3) return;
@@ -74,7 +76,7 @@ void for_each_quadrature_point(const SharedArea& polygon, Visit visit) {
   }
 }
 
-/// The contact plane with its own two directions, origin at the contact point.
+/// In-plane coordinates of the contact plane, with the origin at the contact point.
 struct PlaneFrame {
   Vec3 origin, u, v;
   Triangle2 project(const CurvedTriangle& t) const {
@@ -84,11 +86,12 @@ struct PlaneFrame {
   }
 };
 
-/// Along the first side of a, so that it turns with the triangles.
-PlaneFrame make_frame(const TriangleMeeting& meeting, const CurvedTriangle& a) {
+/// In-plane coordinates with the first axis along the first side of a, so that they rotate with the
+/// triangles.
+PlaneFrame make_frame(const ContactPlane& plane, const CurvedTriangle& a) {
   const Vec3 side = a.corner[1] - a.corner[0];
-  const Vec3 u = (side - meeting.normal.dot(side) * meeting.normal).normalized();
-  return {meeting.point, u, meeting.normal.cross(u)};
+  const Vec3 u = (side - plane.normal.dot(side) * plane.normal).normalized();
+  return {plane.point, u, plane.normal.cross(u)};
 }
 
 std::array<double, 3> barycentric(const Triangle2& t, const Vec2& x) {
@@ -102,7 +105,7 @@ MaugisPair make_pair(const MaugisLaw& law, double radius) {
   return {{radius, law.modulus, law.adhesion}, law.cohesive_stress};
 }
 
-/// Eq. (14) plus Eq. (17), kPa.
+/// Normal stress at radius r, Eq. (14) plus Eq. (17), kPa.
 double stress_at(const MaugisPair& pair, const MaugisPoint& state, double r) {
   return hertz_pressure(pair.pair, state.contact_radius, r) +
          (pair.pair.adhesion > 0.0
@@ -111,33 +114,32 @@ double stress_at(const MaugisPair& pair, const MaugisPoint& state, double r) {
               : 0.0);
 }
 
-/// The area through which two triangles act on each other, on their contact plane.
+/// Area on the contact plane through which two triangles act on each other.
 struct PressedArea {
-  TriangleMeeting meeting;
+  ContactPlane plane;
   Triangle2 flat_a, flat_b;
   SharedArea shared;
   MaugisCurve curve;
   MaugisPoint state;
 };
 
-/// Empty where compute_triangle_forces is zero.
-std::optional<PressedArea> find_pressed_area(const MaugisLaw& law, const CurvedTriangle& a,
-                                             const CurvedTriangle& b) {
-  const TriangleMeeting meeting = meet_triangles(a, b, law.max_radius);
-  if (!(a.normal.dot(meeting.normal) > kFacing && b.normal.dot(meeting.normal) < -kFacing))
-    return {};
-  const PlaneFrame frame = make_frame(meeting, a);
+/// Area of two triangles in contact; empty where compute_triangle_forces is zero.
+std::optional<PressedArea> compute_pressed_area(const MaugisLaw& law, const CurvedTriangle& a,
+                                                const CurvedTriangle& b) {
+  const ContactPlane plane = compute_contact_plane(a, b, law.max_radius);
+  if (!(a.normal.dot(plane.normal) > kFacing && b.normal.dot(plane.normal) < -kFacing)) return {};
+  const PlaneFrame frame = make_frame(plane, a);
   const Triangle2 flat_a = frame.project(a), flat_b = frame.project(b);
   // Seen from a, the corners of b run clockwise.
   const SharedArea shared = intersect(flat_a, {flat_b[0], flat_b[2], flat_b[1]});
   if (shared.n < 3) return {};
-  const MaugisCurve curve = make_maugis_curve(make_pair(law, meeting.radius));
-  const MaugisPoint state = maugis_at_overlap(curve, meeting.overlap);
+  const MaugisCurve curve = make_maugis_curve(make_pair(law, plane.radius));
+  const MaugisPoint state = maugis_at_overlap(curve, plane.overlap);
   if (state.cohesive_radius == 0.0) return {};
-  return PressedArea{meeting, flat_a, flat_b, shared, curve, state};
+  return PressedArea{plane, flat_a, flat_b, shared, curve, state};
 }
 
-/// visit(x, area, stress) at the quadrature points within the radius c; kPa.
+/// Calls visit(x, area, stress) at the quadrature points within the radius c, with stress in kPa.
 template <class Visit>
 void for_each_stress(const PressedArea& pressed, Visit visit) {
   for_each_quadrature_point(pressed.shared, [&](const Vec2& x, double area) {
@@ -149,8 +151,8 @@ void for_each_stress(const PressedArea& pressed, Visit visit) {
 
 }  // namespace
 
-TriangleMeeting meet_triangles(const CurvedTriangle& a, const CurvedTriangle& b,
-                               double max_radius) {
+ContactPlane compute_contact_plane(const CurvedTriangle& a, const CurvedTriangle& b,
+                                   double max_radius) {
   double k_a = a.curvature, k_b = b.curvature;
   const double sum = std::max(k_a + k_b, 1.0 / max_radius);
   if (k_a < 0.0 || k_b < 0.0 || k_a + k_b < sum) k_a = k_b = 0.5 * sum;
@@ -170,7 +172,7 @@ TriangleMeeting meet_triangles(const CurvedTriangle& a, const CurvedTriangle& b,
 TriangleForces compute_triangle_forces(const MaugisLaw& law, const CurvedTriangle& a,
                                        const CurvedTriangle& b) {
   TriangleForces out;
-  const std::optional<PressedArea> pressed = find_pressed_area(law, a, b);
+  const std::optional<PressedArea> pressed = compute_pressed_area(law, a, b);
   if (!pressed) return out;
   std::array<double, 3> load_a{}, load_b{};
   for_each_stress(*pressed, [&](const Vec2& x, double area, double stress) {
@@ -184,8 +186,8 @@ TriangleForces compute_triangle_forces(const MaugisLaw& law, const CurvedTriangl
     out.contact_area += area;
   });
   for (int k = 0; k < 3; ++k) {
-    out.on_a[k] = load_a[k] * pressed->meeting.normal;
-    out.on_b[k] = load_b[k] * pressed->meeting.normal;
+    out.on_a[k] = load_a[k] * pressed->plane.normal;
+    out.on_b[k] = load_b[k] * pressed->plane.normal;
   }
   return out;
 }
@@ -193,10 +195,10 @@ TriangleForces compute_triangle_forces(const MaugisLaw& law, const CurvedTriangl
 TriangleContact compute_triangle_contact(const MaugisLaw& law, const CurvedTriangle& a,
                                          const CurvedTriangle& b) {
   TriangleContact out;
-  const std::optional<PressedArea> pressed = find_pressed_area(law, a, b);
+  const std::optional<PressedArea> pressed = compute_pressed_area(law, a, b);
   if (!pressed) return out;
-  out.normal = pressed->meeting.normal;
-  const MaugisPoint deeper = maugis_at_overlap(pressed->curve, pressed->meeting.overlap + kDeeper);
+  out.normal = pressed->plane.normal;
+  const MaugisPoint deeper = maugis_at_overlap(pressed->curve, pressed->plane.overlap + kDeeper);
   for_each_stress(*pressed, [&](const Vec2& x, double area, double stress) {
     TrianglePart& part = stress > 0.0 ? out.push : out.pull;
     const double force = area * stress;

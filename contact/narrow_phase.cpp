@@ -1,4 +1,4 @@
-/// find_contacts of candidates.hpp: the closest features of a list.
+/// Narrow phase, find_contacts of candidates.hpp: closest features of a list.
 
 #include <algorithm>
 
@@ -24,12 +24,12 @@ std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> b
   auto flush = [&] {
     find_closest(b, {list.triangle, list.bound}, shift, horizon, block);
     // On a fixed body, which has no unknowns, the exact place: it may be far from its corners.
-    find_gaps(b, is_fixed ? Place::kExact : Place::kRounded, block);
+    compute_gaps(b, is_fixed ? Place::kExact : Place::kRounded, block);
     for (int i = 0; i < block.n; ++i) {
       if (block.triangle[i] < 0) continue;
       const double gap = block.gap[i];
       if (gap > range || gap < -depth) continue;
-      // A sheet met through the cell's own inside is not a contact.
+      // A fold reached through the cell's own inside is not a contact.
       if (self && gap < 0) continue;
       const std::size_t site = point[i] / per_site;
       const Vec3 facing = site_normal(a, o.quadrature, site);

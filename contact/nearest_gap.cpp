@@ -10,8 +10,7 @@
 namespace acinus::contact {
 namespace {
 
-/// Distance to a rigid surface, negative where cells may not be; no less than `enough` is told
-/// apart.
+/// Gap to a static mesh, um, negative where cells may not be; not resolved beyond `enough`.
 double gap_to_static_mesh(const StaticMesh& m, const Vec3& x, double enough) {
   const std::vector<Vec3>& node = m.body.node;
   if (!m.inside) {
@@ -21,7 +20,7 @@ double gap_to_static_mesh(const StaticMesh& m, const Vec3& x, double enough) {
     if (away >= enough) return away;
   }
   const double distance = geometry::compute_distance(x, node, *m.triangle);
-  // Triangles of a surface that is lived in face inward: its winding number is -1 inside.
+  // Triangles of a mesh with cells inside face inward: its winding number is -1 inside.
   const bool within = std::abs(geometry::compute_winding_number(x, node, *m.triangle)) > 0.5;
   return within == m.inside ? distance : -distance;
 }

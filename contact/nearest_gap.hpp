@@ -1,5 +1,5 @@
 #pragma once
-/// The distance of a point to everything rigid around it.
+/// Gap of a point to the nearest obstacle.
 
 #include <string>
 
@@ -7,10 +7,10 @@
 
 namespace acinus::contact {
 
-/// Gap to the nearest of all walls, vessels and static meshes, um: negative where cells may not be,
-/// infinite without boundary. Cost: all of them, for a single point.
-/// @param time  s since t = 0, for which moving walls stand
-/// @param name  gets how messages name the nearest one
+/// Gap to the nearest wall, vessel or static mesh, um: negative where cells may not be, infinite
+/// without obstacles. Cost: linear in the obstacles.
+/// @param time  s since t = 0, at which moving walls are evaluated
+/// @param name  receives the nearest obstacle's name in messages; may be null
 double nearest_gap(const Boundary& boundary, const Vec3& x, double time,
                    std::string* name = nullptr);
 

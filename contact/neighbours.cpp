@@ -40,7 +40,7 @@ struct PointGrid {
   }
 };
 
-/// Empty (no cells) when the spheres are so scattered that most of the grid would be.
+/// Grid of the spheres; empty (no cells) when they are so scattered that most of it would be.
 PointGrid make_grid(const double* position, std::span<const double> radius, double margin) {
   PointGrid g;
   Box box;

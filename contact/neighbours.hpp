@@ -1,5 +1,5 @@
 #pragma once
-/// Which spheres come near each other.
+/// Neighbour list of spheres.
 
 #include <cstdint>
 #include <span>
@@ -8,12 +8,13 @@
 
 namespace acinus::contact {
 
-/// All pairs (i, j), i < j, of spheres whose surfaces are closer than `margin`; ascending order.
+/// Pairs (i, j), i < j, of all spheres whose surfaces are closer than `margin`, um; ascending
+/// order.
 /// Cost linear in spheres and pairs (uniform grid of the largest sphere). The same for any number
 /// of threads.
 /// @param position  [row][3][lane] um, sphere i in lane i % kLanes of row i / kLanes
 /// @param radius    [n_sphere] um
-/// @param ghost   [n_sphere] pairs of two with a 1 are left out; empty: none are
+/// @param ghost     [n_sphere] 1: ghost cell. Pairs of two ghost cells are left out; empty: none
 std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
                                                    std::span<const double> radius, double margin,
                                                    std::span<const std::uint8_t> ghost = {});

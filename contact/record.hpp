@@ -1,6 +1,6 @@
 #pragma once
-/// The contact record: place, normal and gap, written by the search, then force, slope and
-/// friction, written by a law. It is the same for all kinds of cells and obstacles.
+/// Contact record: place, normal and gap, written by the search, then force, slope and friction,
+/// written by a law. The same for all kinds of cells and obstacles.
 
 #include <algorithm>
 #include <array>
@@ -24,14 +24,15 @@ enum class Partner : std::uint8_t {
   kSphere,
   kNucleus
 };
-inline constexpr int kObstacleKinds = static_cast<int>(Partner::kSurface);  ///< they come first
+inline constexpr int kObstacleKinds =
+    static_cast<int>(Partner::kSurface);  ///< obstacles come first
 inline bool is_cell(Partner p) { return p == Partner::kSurface || p == Partner::kSphere; }
 
-/// The point of a side that has only one: a sphere.
+/// Point index of a side that has only one point: a sphere.
 inline constexpr int kWhole = -1;
 
-/// Side a is a cell: a probing point of a deformable surface, or a sphere. Its force is
-/// +force * normal, that on b the opposite.
+/// Contact of side a, a cell (a probing point of a deformable surface, or a sphere), with its
+/// partner on side b. The force on a is +force * normal, that on b the opposite.
 struct Contact {
   // Written by the search:
   int a = 0;           ///< surface or sphere
@@ -43,22 +44,22 @@ struct Contact {
   // Written by the law:
   float friction = 0;  ///< nN s/um
   // Written by the search:
-  /// Barycentric weights of the first two corners of the triangle of b, as the solver keeps them;
-  /// gap and normal are those of the place they name (of the exact place on a mesh, which has no
+  /// Barycentric weights of the first two corners of the triangle of b, as the solver stores them;
+  /// gap and normal belong to the place they give (to the exact place on a mesh, which has no
   /// unknowns).
   std::array<float, 2> place{};
-  /// The same on triangle `point` of a, of contacts between triangles only
+  /// Likewise on triangle `point` of a; of contacts between triangles only
   /// (dcm/contact/triangle_contact.hpp).
   std::array<float, 2> place_a{};
-  double stiffness = 0;        ///< nN/um^3 under compression: of obstacles of a surface, of nuclei
+  double stiffness = 0;        ///< nN/um^3: of a surface with an obstacle, of nuclei
   double depth = 0;            ///< um, largest of a sphere's contacts with the same surface
   Vec3 normal = Vec3::Zero();  ///< unit, d gap / d x_a: from b towards a when apart
   double gap = 0;              ///< um, negative: overlap
-  double onset = 0;            ///< um, depth in an obstacle at which it begins to push
+  double onset = 0;            ///< um, depth in an obstacle at which repulsion begins
   // Written by the law:
-  double touching = 0;  ///< um^2 in touch
+  double touching = 0;  ///< um^2 in contact
   double force = 0;     ///< nN, positive pushes apart; without friction
-  double slope = 0;     ///< nN/um, its growth with depth, not negative
+  double slope = 0;     ///< nN/um, its derivative by depth, not negative
 
   std::array<double, 3> weights() const { return weights_at(place); }
   static std::array<double, 3> weights_at(const std::array<float, 2>& place) {
@@ -66,7 +67,8 @@ struct Contact {
     return {w0, w1, 1 - w0 - w1};
   }
   bool is_fold() const { return partner == Partner::kSurface && a == b; }
-  /// A second contact of a point, to push with what the others do not.
+  /// True for a contact without adhesion and friction that adds repulsion where the other contacts
+  /// of its point have too little.
   bool only_pushes() const { return guard || onset > 0; }
 };
 static_assert(sizeof(Contact) == 120);  // a step reads and writes all of them: larger is slower
@@ -76,12 +78,12 @@ static_assert(sizeof(Contact) == 120);  // a step reads and writes all of them: 
 enum class ContactKind { kSurface, kObstacle, kInterface, kSphereObstacle, kNucleus, kSphere };
 inline constexpr std::size_t kKinds = 6;
 
-/// All contacts at a time, one kind after the other. Contacts of one cell a stand together.
+/// Contacts of one time, one kind after the other. Contacts of one cell a are contiguous.
 struct ContactList {
   std::vector<Contact> all;
   std::array<std::size_t, kKinds> end{};  ///< of each kind in `all`
 
-  /// Ends a kind with what `all` holds; later kinds are empty.
+  /// Ends a kind at the present size of `all`; later kinds are empty.
   void close(ContactKind kind) {
     for (std::size_t k = static_cast<std::size_t>(kind); k < kKinds; ++k) end[k] = all.size();
   }
@@ -100,7 +102,7 @@ struct ContactList {
   }
   std::span<const Contact> surface() const {
     return of(ContactKind::kSurface);
-  }  ///< and static meshes
+  }  ///< cells with each other and with static meshes
   std::span<const Contact> obstacle() const { return of(ContactKind::kObstacle); }
   std::span<const Contact> interface() const { return of(ContactKind::kInterface); }
   std::span<const Contact> sphere_obstacle() const { return of(ContactKind::kSphereObstacle); }

@@ -1,5 +1,5 @@
 #pragma once
-/// Triangle surfaces as contact sees them: bodies with normals, and the points that probe them.
+/// Triangle surfaces in the contact search: bodies with normals, and their probing points.
 
 #include <array>
 #include <cstdint>
@@ -12,17 +12,17 @@
 
 namespace acinus::contact {
 
-/// Where the gap of a surface is sampled.
+/// Sampling points of the gap of a surface.
 enum class Quadrature {
   kThreePoint,    ///< three interior points per triangle, weights (2/3, 1/6, 1/6)
   kNodes,         ///< the nodes
   kNodesAndEdges  ///< the nodes, then the edge midpoints
 };
 
-/// A closed surface at one moment. Does not know whether it is a cell or an obstacle.
+/// Closed surface at one time, of a cell or of an obstacle.
 struct SurfaceBody {
   const std::vector<std::array<int, 3>>* triangle = nullptr;  ///< shared, outward
-  /// Shared; empty for a body that never meets itself and is only probed.
+  /// Shared; null for a body without self-contact that is only probed.
   const geometry::Topology* topology = nullptr;
   std::vector<Vec3> node;  ///< um
   // written by refresh_body:
@@ -33,11 +33,11 @@ struct SurfaceBody {
   Box box;
 };
 
-/// Recomputes everything that follows from the nodes.
+/// Recomputes all members that depend on the nodes.
 void refresh_body(SurfaceBody& body);
 
-/// Points lie in groups that are searched for together, the sites: triangles, or nodes, or nodes
-/// and then edges (site - n_node).
+/// True if the sites are triangles. A site is a group of probing points that are searched together:
+/// a triangle, or a node, or a node or an edge (numbered after the nodes).
 inline bool has_face_sites(Quadrature q) { return q == Quadrature::kThreePoint; }
 inline int points_per_site(Quadrature q) { return has_face_sites(q) ? 3 : 1; }
 inline std::size_t n_sites(const SurfaceBody& b, Quadrature q) {
@@ -49,7 +49,7 @@ inline std::size_t n_points(const SurfaceBody& b, Quadrature q) {
   return n_sites(b, q) * points_per_site(q);
 }
 
-/// Where a site is: the triangle's centre, the node, or the midpoint of the edge.
+/// Position of a site, um: the triangle's centre, the node, or the midpoint of the edge.
 inline Vec3 site_place(const SurfaceBody& b, Quadrature q, std::size_t site) {
   if (has_face_sites(q)) return b.center[site];
   if (site < b.node.size()) return b.node[site];
@@ -57,7 +57,7 @@ inline Vec3 site_place(const SurfaceBody& b, Quadrature q, std::size_t site) {
   return 0.5 * (b.node[i] + b.node[j]);
 }
 
-/// How far from its place the corners of a site's triangle are, um; its points are half as far.
+/// Distance of the corners of a site's triangle from its position, um; that of its points is half.
 inline double site_reach(const SurfaceBody& b, Quadrature q, std::size_t site) {
   return has_face_sites(q) ? b.reach[site] : 0;
 }
@@ -71,21 +71,21 @@ inline Vec3 site_normal(const SurfaceBody& b, Quadrature q, std::size_t site) {
   return (b.triangle_normal[s] + b.triangle_normal[t]).normalized();
 }
 
-/// Whether two surfaces can touch where their outward normals are these. Beside each other still
-/// counts: a rim that bends away is held. What turns its back does not: it is the far side of a
-/// thin part of a cell.
+/// True if surfaces with these outward normals can be in contact. Normals at right angles still
+/// count, so that a rim that bends away stays in contact. Nearly equal normals do not: they belong
+/// to the far side of a thin part of a cell.
 inline bool are_facing(const Vec3& outward, const Vec3& other_outward) {
   constexpr double kMostAlike = 0.2;
   return outward.dot(other_outward) <= kMostAlike;
 }
 
-/// The nodes and weights that make up one probing point.
+/// Nodes and weights of one probing point.
 struct PointStencil {
   int n = 0;
-  /// All different if n > 1: the solver knows places on faces, so that the midpoint of an edge
-  /// names the opposite corner of a face as well, with weight 0.
+  /// All different if n > 1: the solver stores places on faces, so that the midpoint of an edge
+  /// also has the opposite corner of a face, with weight 0.
   std::array<int, 3> node{};
-  std::array<double, 3> weight{};  ///< the first two are float numbers; the third makes them 1
+  std::array<double, 3> weight{};  ///< sum 1; the first two are float numbers
 };
 inline PointStencil point_stencil(const SurfaceBody& body, Quadrature q, int point) {
   const int n_node = static_cast<int>(body.node.size());

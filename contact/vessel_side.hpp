@@ -1,17 +1,17 @@
 #pragma once
-/// The side of a contact that a vessel is, where it moves.
+/// Vessel side of a contact, for vessels that move.
 
 #include "contact/boundary.hpp"
 #include "solve/links.hpp"
 
 namespace acinus::contact {
 
-/// First row of the nodes of a network that moves; rows are those of the system. kAtRest: the
-/// vessels have no unknowns.
+/// Value of `first_row` for vessels without unknowns. Otherwise it is the first row of the
+/// network's nodes in the system.
 inline constexpr std::size_t kAtRest = static_cast<std::size_t>(-1);
 
-/// The place on the axis of a segment that a point is nearest to: its force acts there, along the
-/// line to the point, and turns nothing.
+/// Point on the axis of a segment nearest to x, as a side of a link. The force acts there along the
+/// line to x and exerts no torque.
 inline solve::Side vessel_side(const Vessels& vessels, std::size_t first_row, int segment,
                                const Vec3& x) {
   if (first_row == kAtRest) return solve::Side::nowhere();

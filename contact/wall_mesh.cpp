@@ -14,7 +14,7 @@
 namespace acinus::contact {
 namespace {
 
-/// Of the segments whose boxes a point is in, the one with the nearest wall.
+/// Segment with the nearest cone surface, of those whose boxes contain a point.
 int segment_of_wall(const geometry::Network& network, std::span<const Box> box, const Vec3& x) {
   int nearest = -1;
   double least = 0;
@@ -36,7 +36,7 @@ int segment_of_wall(const geometry::Network& network, std::span<const Box> box, 
 WallMesh make_wall_mesh(const geometry::Network& network, geometry::Surface surface) {
   WallMesh wall;
   wall.surface = make_static_mesh("vessels", std::move(surface), false);
-  // Walls are nowhere farther from their cone than a share of its radius.
+  // Bound of the distance of the surface about the vessels from an axis, over the cone's radius.
   constexpr double kWider = 1.3;
   std::vector<Box> box;
   for (std::size_t s = 0; s < network.segment.size(); ++s)

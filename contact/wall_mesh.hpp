@@ -1,6 +1,6 @@
 #pragma once
-/// The walls of vessels as one closed surface, which cells touch in place of the cones that it is
-/// laid around: without the creases where these meet.
+/// Closed surface about the vessels, which cells touch in place of the cones of the segments. It
+/// lacks the creases at the joints of the cones.
 
 #include <cstddef>
 #include <vector>
@@ -13,13 +13,14 @@ namespace acinus::contact {
 
 struct WallMesh {
   StaticMesh surface;
-  std::vector<int> segment;  ///< [triangle] the segment that it is a wall of: the nearest
-  /// Triangles of each segment, from first_of_segment[segment] on. None where it is buried in
-  /// others.
+  std::vector<int> segment;  ///< [triangle] nearest segment
+  /// Triangles of each segment, from first_of_segment[segment] on; none for a segment that is
+  /// buried in others.
   std::vector<int> of_segment;
   std::vector<std::size_t> first_of_segment;
 };
 
+/// Closed surface about a network, with the segment of each triangle.
 /// @param surface  closed, outward, about the network
 WallMesh make_wall_mesh(const geometry::Network& network, geometry::Surface surface);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The shape a cell was born with. Its cortex takes that for rest at first and forgets it in the
+/// Shape of a cell at birth, the rest shape of its cortex at first. The cortex forgets it in the
 /// course of mitosis, so that division makes no force jump.
 
 #include <span>
@@ -11,11 +11,12 @@
 
 namespace acinus::dcm {
 
-/// Time in which a cortex forgets the shape it was given otherwise than by division, s: as long as
-/// mitosis, slow next to what settles a cell, fast next to its cycle.
+/// Time in which a cortex forgets a shape that it did not get by division, s: as long as mitosis,
+/// slow next to the relaxation of a cell, fast next to its cycle.
 inline constexpr double kForgetShape = 3600;
 
-/// References over those of a sphere of the reference volume: r(t) = 1 + weight(t) (ratio - 1).
+/// Ratios of references to those of a sphere of the reference volume: r(t) = 1 + weight(t) (ratio -
+/// 1).
 struct BirthShape {
   Ramp weight = Ramp::constant(0);  ///< from 1 at birth to 0 after mitosis
   double area = 1;                  ///< ratio of the whole surface
@@ -26,8 +27,8 @@ struct BirthShape {
   bool is_forgotten(double time) const { return edge.empty() || !(weight.at(time) > 0); }
 };
 
-/// The shape of these nodes at rest, but for a stretch of the surface (area over its reference)
-/// that is felt from the first moment on.
+/// Birth shape of these nodes at rest, but for a stretch of the surface (area over its reference)
+/// that acts from the first moment on.
 /// @param radius  um, reference radius
 BirthShape make_birth_shape(const geometry::Topology& topology, std::span<const Vec3> node,
                             double radius, double stretch, const Ramp& weight);

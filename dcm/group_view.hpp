@@ -1,5 +1,5 @@
 #pragma once
-/// One group of eight cells as the term kernels see it.
+/// View of one group of eight cells, the input of the term kernels.
 
 #include "core/numbers/lanes.hpp"
 #include "geometry/topology.hpp"
@@ -21,7 +21,7 @@ struct GroupView {
   const double* active;    ///< [lane] 1 where a cell is, 0 in empty lanes
 };
 
-/// References of one cell at the end of the step.
+/// Rest area of one cell at the end of the step, um^2.
 inline double rest_area(const GroupView& g, int lane) {
   return g.topology->rest_area * g.radius[lane] * g.radius[lane] * g.area[lane];
 }

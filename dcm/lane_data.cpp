@@ -13,7 +13,7 @@ void fill_lane(std::vector<double>& group, const std::vector<double>& ratio, dou
     group[k * kLanes + lane] = 1 + weight * (ratio[k] - 1);
 }
 
-/// Tensions of one cell among those of its group, of which others may not have any yet.
+/// Tensions of one cell among those of its group, other cells of which may have none yet.
 void fill_tension(const State& s, std::size_t lane, LaneData& data) {
   const EdgeTension& t = s.tension[lane];
   if (t.is_new()) return;
@@ -32,7 +32,7 @@ void fill_tension(const State& s, std::size_t lane, LaneData& data) {
 }
 
 /// Sizes and links of nuclei.
-void find_nucleus_lanes(const State& s, double time, LaneData& data) {
+void refresh_nucleus_lanes(const State& s, double time, LaneData& data) {
   NucleusLanes& n = data.nucleus;
   if (!has_nuclei(s)) {
     n = {};
@@ -54,13 +54,13 @@ void find_nucleus_lanes(const State& s, double time, LaneData& data) {
 
 LaneData make_lane_data(const State& state, double time) {
   LaneData data;
-  find_lane_data(state, time, data);
+  refresh_lane_data(state, time, data);
   return data;
 }
 
-void find_lane_data(const State& state, double time, LaneData& data) {
+void refresh_lane_data(const State& state, double time, LaneData& data) {
   const std::size_t n = state.n_lane();
-  find_reference_radii(state, time, data.radius);
+  refresh_reference_radii(state, time, data.radius);
   data.area.assign(n, 1.0);
   data.active.assign(n, 0.0);
   for (auto* factors : {&data.edge, &data.triangle, &data.tension, &data.length}) {
@@ -77,7 +77,7 @@ void find_lane_data(const State& state, double time, LaneData& data) {
     fill_lane(data.edge[l / kLanes], birth.edge, weight, l % kLanes);
     fill_lane(data.triangle[l / kLanes], birth.triangle, weight, l % kLanes);
   }
-  find_nucleus_lanes(state, time, data);
+  refresh_nucleus_lanes(state, time, data);
 }
 
 GroupView view_group(const State& state, const LaneData& lanes, const solve::System& s,

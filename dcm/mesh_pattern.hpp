@@ -1,6 +1,6 @@
 #pragma once
-/// Elements that the terms of a cell mesh need: the edges, and the hinges and triangles only where
-/// a term uses them. One per topology and choice, made once.
+/// Elements of a cell mesh that terms use: the edges, and hinges and triangles only if a term uses
+/// them. One pattern per topology and choice, made once.
 
 #include "dcm/params.hpp"
 #include "geometry/topology.hpp"
@@ -8,13 +8,13 @@
 
 namespace acinus::dcm {
 
-/// The elements of a cell of this kind, those of its nucleus after those of its cortex. Kept for
-/// the life of the program, keyed by the addresses of the topologies and by which terms are on.
+/// Pattern of a cell: elements of its cortex, then of its nucleus. Kept for the life of the
+/// program, keyed by the addresses of the topologies and by the terms that are on.
 const solve::BlockPattern& shared_mesh_pattern(const geometry::Topology& topology,
                                                const Params& params,
                                                const NucleusMesh& nucleus = {});
 
-/// Points alone, for cells that do not move.
+/// Pattern of points alone, for cells that do not move.
 const solve::BlockPattern& shared_point_pattern(int n_point);
 
 }  // namespace acinus::dcm

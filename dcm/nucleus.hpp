@@ -1,9 +1,9 @@
 #pragma once
-/// The nucleus of a deformable cell: a second closed surface inside the cortex.
+/// Nucleus of a deformable cell: a second closed surface inside the cortex.
 ///
 /// Its nodes are further points of the cell: rows of the cell's block of unknowns after those of
-/// the cortex, in the same lane. What loops over cells or over the nodes of the cortex does not
-/// see them, and all that moves points does (docs/decisions/0033.md).
+/// the cortex, in the same lane. Loops over cells or over the nodes of the cortex exclude them;
+/// code that moves points includes them (docs/decisions/0033.md).
 
 #include "geometry/topology.hpp"
 
@@ -11,7 +11,7 @@ namespace acinus::dcm {
 
 /// Mechanical constants of the nuclei of one cell type.
 struct Nucleus {
-  int nodes = 42;            ///< of its mesh
+  int nodes = 42;            ///< nodes of its mesh
   double size = 0.5;         ///< radius over that of the cell
   double young = 5;          ///< kPa, of its shell
   double thickness = 0.5;    ///< um, of its shell
@@ -20,18 +20,18 @@ struct Nucleus {
   double bulk_modulus = 5;   ///< kPa
   double friction = 1e-2;    ///< nN s/um^3, with the cytosol, per area of the nucleus
   double repulsion = 5;      ///< nN/um^3, between nucleus and cortex
-  double gap = 0.5;          ///< um, at which that begins
+  double gap = 0.5;          ///< um, gap at which the repulsion begins
   double link_young = 0;     ///< kPa, of the cytoskeleton between nucleus and cortex
-  double link_friction = 0;  ///< kPa s, beside that
+  double link_friction = 0;  ///< kPa s, parallel to link_young
 
-  /// One that nothing holds in shape or in place is carried along without any effect: it is left
-  /// out.
+  /// True if any term resists a change of shape or place. A nucleus without resistance has no
+  /// effect and is left out.
   bool resists() const {
     return young > 0 || area_modulus > 0 || bulk_modulus > 0 || link_young > 0 || link_friction > 0;
   }
 };
 
-/// The mesh of the nuclei of a group of cells.
+/// Mesh of the nuclei of a group of cells.
 struct NucleusMesh {
   const geometry::Topology* topology = nullptr;  ///< shared; null: no nuclei
   double size = 0;                               ///< radius over that of the cell
@@ -41,7 +41,7 @@ struct NucleusMesh {
   bool operator==(const NucleusMesh&) const = default;
 };
 
-/// The mesh that cells of a type have; none where there is no nucleus.
+/// Mesh of the nuclei of a cell type; empty without a nucleus.
 inline NucleusMesh nucleus_mesh(const Nucleus* n) {
   if (n == nullptr) return {};
   return {&geometry::shared_icosphere(n->nodes), n->size};

@@ -10,7 +10,7 @@
 
 namespace acinus::dcm {
 
-/// Cortex of Table 1, from which the default springs and hinges follow.
+/// Constants of the cortex of Table 1, from which the default springs and hinges follow.
 inline constexpr double kCortexYoung = 1;        // kPa
 inline constexpr double kCortexThickness = 0.5;  // um
 inline constexpr double kCortexPoisson = 0.5;

@@ -10,7 +10,7 @@ namespace acinus::dcm {
 
 namespace {
 
-/// Puts the points of a cell where f puts those of the unit cell at rest.
+/// Sets the points of a cell to the images under f of those of the unit cell at rest.
 template <class F>
 void place_points(State& s, std::size_t lane, F f) {
   const Group& g = s.group[lane / kLanes];
@@ -25,14 +25,14 @@ void place_points(State& s, std::size_t lane, F f) {
 /// Stable grouping: a group is open while it has a free lane and its type and meshes match.
 class Grouping {
  public:
-  /// A lane for one more cell, in a new group if need be.
+  /// Lane for one more cell, in a new group if need be.
   std::size_t add(std::int64_t lineage, const Group& like) {
     const std::size_t lane = find_lane(like);
     lineage_[lane] = lineage;
     return lane;
   }
 
-  /// A state with these groups, at rest in empty lanes; points of cells are left to place.
+  /// State with these groups, at rest in empty lanes; points of cells are left to place.
   State make_state() && {
     State s;
     s.group = std::move(group_);
@@ -125,11 +125,11 @@ int count_cells(const State& s) {
 
 std::vector<double> reference_radii(const State& s, double time) {
   std::vector<double> radius;
-  find_reference_radii(s, time, radius);
+  refresh_reference_radii(s, time, radius);
   return radius;
 }
 
-void find_reference_radii(const State& s, double time, std::vector<double>& radius) {
+void refresh_reference_radii(const State& s, double time, std::vector<double>& radius) {
   radius.assign(s.n_lane(), 1.0);
   for (std::size_t l = 0; l < radius.size(); ++l)
     if (s.active(l)) radius[l] = sphere_radius(s.volume[l].at(time));

@@ -67,7 +67,7 @@ struct NewCell {
 State make_state(const std::vector<NewCell>& cells);
 
 /// Copies cells into a new state, grouped by type and topology in the order given.
-/// @param lane  [cells] where each came to stand
+/// @param lane  [cells] written: lane of each in the new state
 State compose(std::span<const SelectedCell<State>> cells, std::vector<std::size_t>& lane);
 
 /// Number of cells (not lanes).
@@ -75,7 +75,7 @@ int count_cells(const State& state);
 
 /// Reference radius (3 V0 / 4 pi)^(1/3) of every lane, um. Empty lanes: 1.
 std::vector<double> reference_radii(const State& state, double time);
-void find_reference_radii(const State& state, double time, std::vector<double>& radius);
+void refresh_reference_radii(const State& state, double time, std::vector<double>& radius);
 
 /// Address of a node, or of any point of the cell, in arrays that start with the DCM rows.
 inline Address node_address(const State& state, std::size_t lane, int node) {
@@ -87,26 +87,25 @@ Vec3 cell_center(const State& state, std::size_t lane);
 
 /// Copies the nodes of one cell's cortex out of the lanes.
 void copy_nodes(const State& state, std::size_t lane, std::vector<Vec3>& node);
-/// Puts them where these stand.   @param node  [n_node] um
+/// Sets the nodes of one cell's cortex.   @param node  [n_node] um
 void store_nodes(std::span<const Vec3> node, std::size_t lane, State& state);
 
-/// Those of its nucleus: none without one.
+/// Copies the nodes of one cell's nucleus: none without one.
 void copy_nucleus(const State& state, std::size_t lane, std::vector<Vec3>& node);
-/// @param node  [n_node of the nucleus] um
+/// Sets the nodes of one cell's nucleus.   @param node  [n_node of the nucleus] um
 void store_nucleus(std::span<const Vec3> node, std::size_t lane, State& state);
 
 inline bool has_nuclei(const State& s) {
   return std::ranges::any_of(s.group, [](const Group& g) { return g.nucleus.exists(); });
 }
 
-/// The blocks of unknowns these cells contribute, in order.
+/// Blocks of unknowns of these cells, in order.
 /// @param constrained  [n_lane] 1: does not move; empty: all move. Groups without a moving cell
-/// have no
-///              terms within.
+///     have no internal terms.
 std::vector<solve::Block> make_blocks(const State& state, std::span<const Params> params,
                                       std::span<const std::uint8_t> constrained = {});
 
-/// Gives the blocks the dashpots of these parameters.
+/// Sets the dashpots of the blocks from these parameters.
 /// @param block  of these cells, and perhaps others after them
 void set_dashpots(const State& state, std::span<const Params> params,
                   std::span<solve::Block> block);

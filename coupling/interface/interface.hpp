@@ -92,7 +92,7 @@ struct InterfaceInput {
 
 /// Appends all interface contacts. Adds their touching shares to the surface points and, if
 /// overlaps are counted, theirs to the spheres, young ones too: a deformable cell is a neighbour of
-/// full strength. @pre the deformable cells' find_contacts, the spheres' find_overlaps if any
+/// full strength. @pre the deformable cells' find_contacts, the spheres' compute_overlaps if any
 void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
                     cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work,
                     contact::ContactList& contacts);

@@ -21,7 +21,7 @@ void search_contacts(const InterfaceInput& in, Workspace& w) {
   const auto scope = w.timings.scope("contacts");
   dcm::find_contacts(in.dcm, w.dcm, w.contacts);
   w.cbm.overlap_sum.clear();
-  if (cbm::has_correction(in.cbm.params)) cbm::find_overlaps(in.cbm, w.cbm);
+  if (cbm::has_correction(in.cbm.params)) cbm::compute_overlaps(in.cbm, w.cbm);
   find_interface(in, w.dcm, w.cbm, w.interface, w.contacts);
   // Of what its cells share a contact with, each process knows only the contacts with these.
   exchange_shares(w);

@@ -10,9 +10,9 @@ void refresh_references(const World& world, const State& at, double end, Workspa
     if (!w.boundary) w.boundary = world.params.boundary;
     place_vessels(world.params.tree, at.tree, w.boundary->vessels);
   }
-  dcm::find_lane_data(at.dcm, end, w.lanes);
-  cbm::find_radii(at.cbm, end, w.cbm_radius);
-  cbm::find_strengths(at.cbm, end, w.cbm_strength);
+  dcm::refresh_lane_data(at.dcm, end, w.lanes);
+  cbm::refresh_radii(at.cbm, end, w.cbm_radius);
+  cbm::refresh_strengths(at.cbm, end, w.cbm_strength);
   w.cbm_mother.clear();
   if (w.cbm_strength.empty() || at.cycle.empty()) return;
   for (std::size_t c = 0; c < at.cbm.n_cell(); ++c)

@@ -27,9 +27,9 @@ contact::SearchOptions search_options(const ContactInput& in) {
   return {c.quadrature, range, c.max_depth, c.skin, 2 * kSelfGap};
 }
 
-/// How much of each point's area touches something.
-void find_shares(const ContactInput& in, const contact::ContactList& contacts,
-                 ContactWorkspace& work) {
+/// Touching share of each point, summed over its contacts.
+void compute_shares(const ContactInput& in, const contact::ContactList& contacts,
+                    ContactWorkspace& work) {
   const double range = in.options.friction_range;
   const bool points = in.options.law == ContactLaw::kCohesive;
   work.share.resize(work.body.size());
@@ -52,7 +52,7 @@ void append(const std::vector<Contact>& more, std::vector<Contact>& all) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-/// Contacts of surfaces with each other and with static meshes, seen from the points.
+/// Search for contacts of the points of surfaces with other surfaces and with static meshes.
 void find_point_contacts(const ContactInput& in, const contact::SearchOptions& options,
                          ContactWorkspace& work, std::vector<Contact>& all) {
   const std::vector<contact::Candidates>& pair = work.lists.pair;
@@ -132,7 +132,7 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
   });
   for (const auto& o : work.obstacle) append(o, all);
   contacts.close(contact::ContactKind::kObstacle);
-  find_shares(in, contacts, work);
+  compute_shares(in, contacts, work);
 }
 
 void compute_medium_areas(const ContactInput& in, const ContactWorkspace& work,

@@ -1,5 +1,5 @@
 #pragma once
-/// Search for the contacts of deformable cells with each other and with boundary.
+/// Search for the contacts of deformable cells with each other and with the boundary.
 
 #include <vector>
 
@@ -10,18 +10,18 @@
 
 namespace acinus::dcm {
 
-/// Largest gap at which a contact of this cell does anything, um.
+/// Largest gap at which a contact of this cell has an effect, um.
 double contact_range(const ContactParams& c, const geometry::Topology& t, double radius);
 
-/// Makes the lists again that no longer hold (contact_lists.hpp). @pre refresh_bodies
+/// Rebuild the lists that no longer hold (contact_lists.hpp). @pre refresh_bodies
 void refresh_lists(const ContactInput& in, ContactWorkspace& work);
 
-/// Starts the list of contacts with all those between surfaces and of surfaces with boundary,
-/// and finds each point's touching share.
+/// Search for all contacts between surfaces and of surfaces with the boundary. Starts the list of
+/// contacts with them and computes each point's touching share.
 void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::ContactList& contacts);
 
-/// Area of each node that feels the medium, [n_row][lane] um^2: what touches no neighbour, or all
-/// of it (whole_medium_area). @pre all shares are known
+/// Area of each node in contact with the medium, [n_row][lane] um^2: that without contact with
+/// neighbours, or all of it (whole_medium_area). @pre all shares are known
 void compute_medium_areas(const ContactInput& in, const ContactWorkspace& work,
                           std::vector<double>& medium_area);
 

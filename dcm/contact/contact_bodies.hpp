@@ -1,5 +1,5 @@
 #pragma once
-/// Bodies of deformable cells as the contact search sees them: of ghost ones no more than is
+/// Bodies of deformable cells in the contact search. Those of ghost cells are incomplete until
 /// needed.
 
 #include <span>
@@ -9,15 +9,13 @@
 
 namespace acinus::dcm {
 
-/// Copies the nodes out of the lanes and recomputes normals and boxes; of ghost bodies only the
-/// boxes.
+/// Copy the nodes from the lanes and recompute normals and boxes; for ghost bodies the boxes alone.
 void refresh_bodies(const State& state, ContactWorkspace& work);
 
-/// Refreshes the ghost bodies among some in full, any number of times each. @pre refresh_bodies
+/// Complete the ghost bodies among `bodies`, which may hold repetitions. @pre refresh_bodies
 void complete_bodies(const State& state, std::span<const int> bodies, ContactWorkspace& work);
 
-/// Copies the nodes of the bodies that have none, for measures that need all of them.
-/// @pre refresh_bodies
+/// Copy the nodes of incomplete bodies, for measures that need all of them. @pre refresh_bodies
 void copy_all_nodes(const State& state, ContactWorkspace& work);
 
 }  // namespace acinus::dcm

@@ -11,30 +11,30 @@
 namespace acinus::dcm {
 namespace {
 
-/// Extra distance, um, at which bodies count as near each other: how far two may come closer before
-/// pairs are looked for again.
+/// Extra distance at which bodies count as near each other, um: their possible approach before
+/// pairs are searched again.
 constexpr double kReserve = 2;
-/// Pairs of bodies that are looked for among those there were before by all threads.
+/// Number of pairs of bodies from which on their former lists are searched on all threads.
 constexpr std::size_t kWorthThreads = 500;
 
 bool is_constrained(const ListInput& in, std::size_t body) {
   return body >= in.body.size() || (!in.constrained.empty() && in.constrained[body] != 0);
 }
 
-/// Whether another process looks for what a body touches; what nobody works out, a static mesh,
-/// counts as such.
+/// True if another process computes the contacts of a body. A static mesh, whose contacts no
+/// process computes, counts as such.
 bool is_ghost(const ListInput& in, std::size_t body) {
   return !in.ghost.empty() && (body >= in.body.size() || in.ghost[body] != 0);
 }
 
-/// Whether lists made then say anything about now.
+/// True if lists made earlier are of use for the present input.
 bool made_alike(const ContactLists& lists, const ListInput& in) {
   const contact::SearchOptions &a = lists.options, &b = in.options;
   return a.quadrature == b.quadrature && a.max_depth == b.max_depth && a.skin == b.skin &&
          a.self_range == b.self_range && lists.n_fixed == in.fixed.size();
 }
 
-/// Whether the pairs listed are all that may be near, of the same bodies.
+/// True if the listed pairs include all near ones, of the same bodies.
 bool pairs_hold(const ListInput& in, const ContactLists& lists) {
   if (lists.body.size() != in.body.size()) return false;
   const double wider = std::max(in.options.range - lists.options.range, 0.0);
@@ -50,7 +50,7 @@ bool pairs_hold(const ListInput& in, const ContactLists& lists) {
   return true;
 }
 
-/// Which body each one was before; -1: none, or none whose lists say anything about now.
+/// Former number of each body; -1: none, or none with lists of use.
 std::vector<int> match_bodies(const ListInput& in, const ContactLists& lists) {
   std::vector<int> was(in.body.size(), -1);
   if (!made_alike(lists, in)) return was;
@@ -81,7 +81,7 @@ void count_lists(ContactLists& lists) {
     count(static_cast<int>(k), lists.segment_age[k].a);
 }
 
-/// Looks for pairs of bodies that are near; lists that exist are kept.
+/// Search for pairs of near bodies; existing lists are kept.
 void renew_pairs(const ListInput& in, ContactLists& lists) {
   const std::vector<int> was = match_bodies(in, lists);
   ContactLists next;
@@ -135,7 +135,7 @@ void renew_pairs(const ListInput& in, ContactLists& lists) {
   count_lists(lists);
 }
 
-void find_motion(const contact::SurfaceBody& now, ListSnapshot& s) {
+void compute_motion(const contact::SurfaceBody& now, ListSnapshot& s) {
   const std::size_t n = s.node.size();
   const auto moved = [&](std::size_t i) -> Vec3 {
     return (now.node[i] - s.origin) - s.node[i].cast<double>();
@@ -149,8 +149,8 @@ void find_motion(const contact::SurfaceBody& now, ListSnapshot& s) {
   s.spread = std::sqrt(spread2);
 }
 
-/// Whether a network that moves went farther than the lists of segments allow for since they were
-/// made; if so they are to be made again, from where it is now.
+/// Test for motion of the network beyond the allowance of the lists of segments. If so they have to
+/// be rebuilt, and the motion counts from the present network.
 bool network_moved(const ListInput& in, double most, ContactLists& lists) {
   if (!in.network_moves || geometry::largest_motion(in.network, lists.network) <= most)
     return false;
@@ -163,8 +163,8 @@ const ListSnapshot* snapshot_of(const ContactLists& lists, int body, int snapsho
   return &lists.body[body].snapshot[snapshot];
 }
 
-/// A free place for a new snapshot of a body, free no more.
-int take_place(ListedBody& body) {
+/// Allocates a snapshot slot for a body.
+int allocate_snapshot(ListedBody& body) {
   std::size_t place = 0;
   while (place < body.snapshot.size() && body.snapshot[place].lists > 0) ++place;
   if (place == body.snapshot.size()) body.snapshot.emplace_back();
@@ -181,7 +181,7 @@ void take_snapshot(const contact::SurfaceBody& now, ListSnapshot& s) {
   s.spread = 0;
 }
 
-/// Finds the segments within reach of every site of a body.
+/// Search for the segments within reach of every site of a body.
 void find_segments(const contact::SurfaceBody& b, const contact::SearchOptions& o,
                    const geometry::Network& network, SegmentCandidates& list) {
   list.site.clear();
@@ -197,7 +197,7 @@ void find_segments(const contact::SurfaceBody& b, const contact::SearchOptions& 
     if (box.grown(r + margin).overlaps(b.box)) near.push_back(static_cast<int>(s));
   }
   if (near.empty()) return;
-  // A node also finds what may stand in the middle of its faces; an edge need not as well.
+  // A node includes the segments in the middle of its faces; an edge need not as well.
   const double widest = *std::ranges::max_element(b.reach);
   for (std::size_t site = 0; site < contact::n_sites(b, o.quadrature); ++site) {
     const bool node = !contact::has_face_sites(o.quadrature) && site < b.node.size();
@@ -229,8 +229,7 @@ void refresh_pairs(const ListInput& in, ContactLists& lists) {
 
 namespace {
 
-/// Lists the pairs of bodies and the bodies at vessels whose points have to be listed anew, in the
-/// scratch.
+/// Collects in the scratch the pairs of bodies and the bodies at vessels whose lists expired.
 void find_expired(const ListInput& in, ContactLists& lists) {
   const double range = in.options.range, skin = in.options.skin;
   ListScratch& scratch = lists.scratch;
@@ -245,7 +244,7 @@ void find_expired(const ListInput& in, ContactLists& lists) {
   for (std::size_t k = 0; k < is_expired.size(); ++k)
     if (is_expired[k] != 0) scratch.expired.push_back(k);
   if (in.network.segment.empty()) return;
-  // Half the skin is for the body, half for the motion of vessels, either way from where they were.
+  // Half the skin is for the body, half for the motion of vessels, in either direction.
   const double allowed = in.network_moves ? 0.5 * skin : skin;
   const bool moved = network_moved(in, 0.25 * skin, lists);
   for (std::size_t k = 0; k < in.body.size(); ++k) {
@@ -265,7 +264,7 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
       n_body > 0 && worth_threads(n_body * in.body[0].node.size() / std::size_t{kLanes});
   for_each_index(n_body, shared, [&](std::size_t k) {
     for (ListSnapshot& s : lists.body[k].snapshot)
-      if (s.lists > 0) find_motion(in.body[k], s);
+      if (s.lists > 0) compute_motion(in.body[k], s);
   });
   find_expired(in, lists);
   ListScratch& scratch = lists.scratch;
@@ -279,7 +278,7 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
   latest.assign(n_body, -1);
   const auto snapshot_now = [&](std::size_t body) {
     if (body >= n_body) return -1;
-    if (latest[body] < 0) latest[body] = take_place(lists.body[body]);
+    if (latest[body] < 0) latest[body] = allocate_snapshot(lists.body[body]);
     return latest[body];
   };
   scratch.to_fill.clear();

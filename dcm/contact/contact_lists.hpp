@@ -1,9 +1,9 @@
 #pragma once
-/// Which parts of deformable cells may meet which others, kept from step to step.
+/// Neighbour lists of deformable cells, kept from step to step.
 ///
 /// A list holds until its two bodies have moved relative to each other by more than the skin; then
-/// it alone is made again. A cell that divides or moves fast costs its neighbours new lists, and
-/// no other. What contacts are found does not depend on when a list was made.
+/// it alone is rebuilt. A cell that divides or moves fast costs only its neighbours new lists. The
+/// contacts found do not depend on the age of a list.
 
 #include <cstdint>
 #include <span>
@@ -14,32 +14,33 @@
 
 namespace acinus::dcm {
 
-/// Vessel segments that each site of a body may meet.
+/// Vessel segments that each site of a body may touch.
 struct SegmentCandidates {
   std::vector<int> site;
   std::vector<std::uint32_t> start;
   std::vector<int> segment;
 };
 
-/// The nodes of a body when lists with it were made, and how they moved since.
+/// Nodes of a body when lists with it were made, and their motion since then.
 struct ListSnapshot {
   std::vector<Eigen::Vector3f> node;  ///< um from the origin; lists allow for the rounding
   Vec3 origin = Vec3::Zero();         ///< um
-  Vec3 mean = Vec3::Zero();           ///< um, movement since then
-  double spread = 0;                  ///< um, largest deviation of a node's movement from the mean
-  int lists = 0;                      ///< how many were made then; 0: its place is free
+  Vec3 mean = Vec3::Zero();           ///< um, mean motion since then
+  double spread = 0;                  ///< um, largest deviation of a node's motion from the mean
+  int lists = 0;                      ///< number of lists made then; 0: free slot
 };
 
-/// A body as the lists know it. Cells are recognised by their lineage when their numbers change.
+/// Body as the lists keep it. Cells are identified by lineage when their numbers change.
 struct ListedBody {
   std::int64_t lineage = -1;
   const geometry::Topology* topology = nullptr;
   bool constrained = false, ghost = false;
-  Box box;  ///< when pairs were looked for
+  Box box;  ///< when pairs were searched
   std::vector<ListSnapshot> snapshot;
 };
 
-/// When a list was made: the snapshots of its bodies (-1: of what has none), and the range then.
+/// Age of a list: the snapshots of its bodies when it was made (-1: body without one), and the
+/// range.
 struct ListAge {
   int a = -1, b = -1;
   double range = 0;  ///< um
@@ -50,26 +51,26 @@ struct ListAge {
 struct ListScratch {
   std::vector<std::uint8_t> is_expired;  ///< [pair]
   std::vector<std::size_t> expired, segments_expired;
-  std::vector<int> latest;  ///< [body] the snapshot of this moment, -1: none
+  std::vector<int> latest;  ///< [body] snapshot of the present time, -1: none
   std::vector<contact::Candidates*> to_fill;
 };
 
 struct ContactLists {
-  contact::SearchOptions options;  ///< they were made with; the range is the latest
+  contact::SearchOptions options;  ///< of the lists; the range is the latest one
   std::size_t n_fixed = 0;
   std::vector<ListedBody> body;
   std::vector<contact::Candidates> pair;   ///< ascending
   std::vector<ListAge> age;                ///< [pair]
   std::vector<SegmentCandidates> segment;  ///< [body]
   std::vector<ListAge> segment_age;        ///< [body]
-  /// A network that moves as it was at a moment from which it did not go far since; all lists of
-  /// segments are younger.
+  /// Moving network at the time from which its motion is measured; all lists of segments are
+  /// younger.
   geometry::Network network;
-  std::int64_t checked = 0, made = 0;  ///< how often a list was looked at, and made
+  std::int64_t checked = 0, made = 0;  ///< lists checked and made, over all calls
   ListScratch scratch;
 };
 
-/// The bodies of this moment. The spans outlive the call.
+/// Bodies at the present time. The spans outlive the call.
 struct ListInput {
   std::span<const contact::SurfaceBody> body, fixed;
   std::span<const std::int64_t> lineage;      ///< [body]
@@ -80,14 +81,14 @@ struct ListInput {
   bool network_moves = false;
 };
 
-/// Looks for the pairs of near bodies again if those listed no longer hold; reads only boxes.
-/// Nothing is listed between bodies that are constrained, nor between ghost ones.
+/// Search for the pairs of near bodies again if those listed no longer hold; reads only boxes.
+/// Pairs of two constrained bodies and of two ghost bodies are left out.
 void refresh_pairs(const ListInput& in, ContactLists& lists);
 
-/// Makes those lists again that no longer hold. @pre refresh_pairs
+/// Rebuild the lists that no longer hold. @pre refresh_pairs
 void refresh_lists(const ListInput& in, ContactLists& lists);
 
-/// How far the bodies of a pair moved relative to each other since its list was made, um.
+/// Relative motion of the bodies of a pair since its list was made, um.
 double relative_motion(const ContactLists& lists, std::size_t pair);
 
 }  // namespace acinus::dcm

@@ -14,22 +14,22 @@ namespace {
 
 using contact::Contact, contact::Partner;
 
-/// Share of its area with which a point rubs on a partner at this gap.
+/// Share of its area with which a point has friction with a partner at this gap.
 double touching_share(const ContactParams& c, const ContactWorkspace& work, int body, int point,
                       double gap) {
   const auto& share = work.share[body];
   return share_scale(share[point]) * contact::contact_share(gap, c.friction_range);
 }
 
-/// The law of a contact.
+/// Coefficients of a contact of a point.
 struct PointLaw {
-  double area = 0;  ///< um^2, what the point stands for
+  double area = 0;  ///< um^2, of the point
   contact::CohesiveLaw cohesive;
   double friction = 0;   ///< nN s/um^3
-  double clearance = 0;  ///< um, how far it is from its repulsive branch
+  double clearance = 0;  ///< um, distance from its repulsive branch
 };
 
-/// Everything that completes a contact.
+/// Completion of contacts: coefficients, force and friction.
 struct Completion {
   const ContactInput& in;
   const ContactWorkspace& work;
@@ -49,8 +49,8 @@ struct Completion {
   }
   contact::CohesiveLaw repulsion(double stiffness) const { return {0, stiffness, 1}; }
 
-  PointLaw meet_surface(Contact& k) const {
-    const double half = 0.5 * area(k.a, k.point);  // seen from both sides
+  PointLaw surface_law(Contact& k) const {
+    const double half = 0.5 * area(k.a, k.point);  // found from both sides
     if (k.is_fold())
       return {half, repulsion(in.options.repulsion), 0, std::min(0.0, k.gap - kSelfGap)};
     const double share = touching_share(in.options, work, k.a, k.point, k.gap);
@@ -61,7 +61,7 @@ struct Completion {
             rubs ? in.options.friction_factor * share * in.options.cell_friction : 0, k.gap};
   }
 
-  PointLaw meet_obstacle(Contact& k) const {
+  PointLaw obstacle_law(Contact& k) const {
     if (k.only_pushes()) {
       const double pushing =
           k.guard ? guard_area(*body(k.a).topology, k.point, in.lanes.radius[lane_of(k.a)])
@@ -78,7 +78,7 @@ struct Completion {
   }
 
   void complete(Contact& k, solve::Link& link, solve::LinkLoad& load) const {
-    const PointLaw law = k.partner == Partner::kSurface ? meet_surface(k) : meet_obstacle(k);
+    const PointLaw law = k.partner == Partner::kSurface ? surface_law(k) : obstacle_law(k);
     const double friction = law.area * law.friction;
     k.force = -law.area * contact::cohesive_traction(law.cohesive, law.clearance);
     k.slope = law.area * contact::cohesive_stiffness(law.cohesive, law.clearance);

@@ -11,7 +11,7 @@ enum class FrictionForm {
   kNodes     ///< the nodes of both triangles (node_friction.hpp)
 };
 
-/// Law by which two deformable cells push and pull.
+/// Law of repulsion and adhesion between two deformable cells.
 enum class ContactLaw {
   kCohesive,      ///< cohesive potential of the gap at contact points (contact/cohesive.hpp)
   kMaugisDugdale  ///< the paper's law between triangles (triangle_contact.hpp)
@@ -30,7 +30,7 @@ struct ContactParams {
   FrictionForm friction_form = FrictionForm::kSurface;
   double adhesion_factor = 1;  ///< ramps up after start-up
   double friction_factor = 1;  ///< 0 while cells grow to size
-  /// The medium is felt on the whole surface, not only where it touches nothing.
+  /// True if the medium acts on the whole surface, false if on the part without contacts.
   bool whole_medium_area = false;
   // For Maugis-Dugdale alone:
   double cohesive_range = 0.02;  ///< um, h0
@@ -38,7 +38,7 @@ struct ContactParams {
   double max_radius = 1e3;       ///< um, R^ of surfaces that are flat or fit into each other
 };
 
-/// Folds of one surface are kept this far apart, um.
+/// Gap kept between the folds of one surface, um.
 inline constexpr double kSelfGap = 0.15;
 
 }  // namespace acinus::dcm

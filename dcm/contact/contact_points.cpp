@@ -5,14 +5,14 @@ namespace {
 
 using contact::Contact;
 
-/// Area on the unit rest shape that a point stands for.
+/// Area of a point on the unit rest shape.
 ///
 /// A triangle with points at nodes and edge midpoints gives a quarter of its area to the nodes and
-/// three quarters to the midpoints: what the node rule gives on the mesh whose every triangle is
-/// cut in four. All points then weigh about the same (S/648 and S/640 with 162 nodes), so a
-/// crossing edge is pushed out as hard as a node at the rim, and the error for a traction that
-/// bends is a quarter of the node rule's. No share at the nodes would be exact for it, but then
-/// they could not push.
+/// three quarters to the midpoints: the node rule on the mesh whose every triangle is cut in four.
+/// All points then weigh about the same (S/648 and S/640 with 162 nodes), so a crossing edge is
+/// pushed out as hard as a node at the rim, and the error for a traction that is quadratic is a
+/// quarter of the node rule's. No share at the nodes would be exact for it, but then they could not
+/// push.
 double rest_share(const geometry::Topology& t, contact::Quadrature q, int point) {
   constexpr double kNodeShare = 0.25, kMidpointShare = (1 - kNodeShare) / 3;
   const std::size_t p = point, n_node = t.n_node;

@@ -1,6 +1,5 @@
 #pragma once
-/// Points of a surface that contacts are seen from: where they are, and how much of it they stand
-/// for.
+/// Probing points and guards of a surface: their stencils and areas.
 
 #include <cstddef>
 
@@ -11,47 +10,47 @@
 
 namespace acinus::dcm {
 
-/// Guards: nodes and face centres deep inside a vessel are pushed out, without adhesion or
-/// friction. Three-point quadrature would not see a vessel's tip in the middle of a face, nor the
-/// tip of a corner at a vessel, and the quadratures with nodes not a thin vessel between the points
-/// (so there only face centres guard). Walls that are flat or hollow have no tips. The number of a
-/// guard is that of its node, or the number of nodes and that of its face.
+/// Guards: nodes and face centres deep inside a vessel, which are pushed out without adhesion or
+/// friction. Three-point quadrature misses the tip of a vessel in the middle of a face and the tip
+/// of a corner at a vessel. The quadratures with nodes miss a thin vessel between the points, so
+/// that only face centres guard there. Flat and hollow walls have no tips. A guard has the number
+/// of its node, or the number of nodes plus that of its face.
 ///
-/// Points at which a vessel yields no more have a second contact with what is missing to the full
-/// stiffness; of both its onset is above zero.
+/// A point at the indentation limit of a vessel has a second contact with the stiffness that the
+/// first one lacks; the onset of the second is above zero.
 
-/// Share of its area that a guard pushes with, and how deep inside, um, it begins to: the
-/// quadrature points carry all that ordinary contact needs, and a point that joins in and leaves
-/// again at every step would only make noise. In a wall that yields they begin where it yields no
-/// more, as far as it is what yields.
+/// Share of its area with which a guard pushes, and the depth inside at which it begins to, um. The
+/// quadrature points carry ordinary contact, and a point that came and went at every step would
+/// only add noise. In an elastic wall the onset rises towards the indentation limit with the
+/// compliance of the wall.
 inline constexpr double kGuardShare = 0.25, kGuardGap = 0.05;
 
-/// Test for a contact of two triangles, whose place on side a is its own, not that of a
-/// point.
+/// Test for a contact of two triangles. Its place on side a is its own, not that of a point.
 inline bool is_between_triangles(const ContactParams& c, const contact::Contact& k) {
   return c.law == ContactLaw::kMaugisDugdale && k.partner == contact::Partner::kSurface &&
          !k.is_fold();
 }
 
-/// The nodes and weights of a contact's point; or of its place between triangles.
+/// Stencil of a contact: that of its point, or of its place if it is between triangles.
 contact::PointStencil stencil_of(const ContactParams& c, const contact::SurfaceBody& body,
                                  const contact::Contact& contact);
 
-/// Nodes and weights of a contact that is known to be one of a point.
+/// Stencil of a contact that is known to be at a point.
 contact::PointStencil probe_stencil(const ContactParams& c, const contact::SurfaceBody& body,
                                     const contact::Contact& contact);
 
-/// Guarding points of a body, and the reference area each stands for, um^2.
+/// Number of guards of a body.
 inline std::size_t n_guards(const contact::SurfaceBody& b) {
   return b.node.size() + b.triangle->size();
 }
+/// Reference area of a guard, um^2.
 double guard_area(const geometry::Topology& t, int point, double radius);
 
-/// Surface area that a probing point stands for, um^2: its share of the reference surface.
+/// Reference surface area of a probing point, um^2.
 double point_area(const geometry::Topology& t, contact::Quadrature q, int point, double radius);
 
-/// Present area of the triangles about a point over their area at rest, which a birth shape does
-/// not change: times point_area, the present area that the point stands for.
+/// Ratio of the present area of the triangles about a point to their area at rest, which a birth
+/// shape does not change. Times point_area it is the present area of the point.
 double point_stretch(const contact::SurfaceBody& body, contact::Quadrature q, int point,
                      double radius);
 

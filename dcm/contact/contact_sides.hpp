@@ -1,5 +1,5 @@
 #pragma once
-/// Places of contacts on the cells, as the solver names them.
+/// Sides of contacts on the cells, in the numbering of the solver.
 
 #include <cstddef>
 
@@ -11,10 +11,10 @@
 
 namespace acinus::dcm {
 
-/// A place on a cell as the solver names it.
+/// Side of a link at a stencil of a cell.
 solve::Side side_at(const State& state, std::size_t lane, const contact::PointStencil& stencil);
 
-/// Side a of a contact of a surface, and side b of one between surfaces.
+/// Side a of a contact of a surface, and side b of a contact between surfaces.
 solve::Side side_a(const ContactInput& in, const ContactWorkspace& work,
                    const contact::Contact& contact);
 solve::Side side_b(const ContactInput& in, const ContactWorkspace& work,

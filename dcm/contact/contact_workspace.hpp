@@ -1,5 +1,5 @@
 #pragma once
-/// Input and scratch that the stages of the contact search of deformable cells share.
+/// Input and scratch of the contact search of deformable cells.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,8 +26,8 @@ struct ContactInput {
   const ContactParams& options;
   const LaneData& lanes;
   const contact::Boundary& boundary;
-  double time = 0;                            ///< s, for which moving walls stand
-  std::size_t vessel_row = contact::kAtRest;  ///< of the nodes of vessels that move
+  double time = 0;                            ///< s, at which moving walls are evaluated
+  std::size_t vessel_row = contact::kAtRest;  ///< first row of the nodes of moving vessels
 };
 
 /// Scratch of the search between triangles.
@@ -40,16 +40,16 @@ struct TriangleContactWorkspace {
 struct ContactWorkspace {
   std::vector<std::uint8_t>
       constrained;  ///< [n_lane] 1: does not move; empty: all move. Set by the caller
-  /// [n_lane] 1: another process computes this cell; empty: none. Set by the caller. Of two such
-  /// cells nothing is looked for, and of one only what own cells may touch is known.
+  /// [n_lane] 1: ghost cell, computed by another process; empty: none. Set by the caller. Pairs of
+  /// two ghost cells are not searched; of a ghost cell only the contacts with own cells are known.
   std::vector<std::uint8_t> ghost;
   std::vector<std::size_t> lane_of_body;  ///< written by: refresh_bodies
-  /// Boxes of all; the rest of own bodies and of those that complete_bodies was asked for. Written
-  /// by: refresh_bodies
+  /// Boxes of all bodies; the other members of own bodies and of those given to complete_bodies.
+  /// Written by: refresh_bodies
   std::vector<contact::SurfaceBody> body;
   std::vector<std::uint8_t> is_complete;    ///< [body] written by: refresh_bodies
   std::vector<contact::SurfaceBody> fixed;  ///< static meshes, then the surface of vessels
-  /// [body] contacts with that surface; by: find_contacts. Empty: vessels are cones.
+  /// [body] contacts with the surface of vessels; by: find_contacts. Empty: vessels are cones.
   std::vector<std::vector<contact::Contact>> wall;
   ContactLists lists;                          ///< written by: refresh_lists
   std::vector<std::int64_t> lineage_of_body;   ///< written by: refresh_lists
@@ -57,7 +57,8 @@ struct ContactWorkspace {
   std::vector<std::uint8_t> body_ghost;        ///< empty: none; written by: refresh_lists
   std::vector<std::vector<contact::Contact>>
       found;  ///< [other threads than the first] by: find_contacts
-  std::vector<std::vector<contact::Contact>> obstacle;  ///< [body] with boundary; by: find_contacts
+  std::vector<std::vector<contact::Contact>>
+      obstacle;  ///< [body] with the boundary; by: find_contacts
   /// [body][point] sum of the touching shares of all contacts of a point; written by:
   /// find_contacts, then added to by the DCM-CBM interface.
   std::vector<std::vector<double>> share;

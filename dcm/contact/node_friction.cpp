@@ -14,13 +14,13 @@
 namespace acinus::dcm {
 namespace {
 
-/// Contacts in a row that join the same two bodies.
+/// Consecutive contacts that join the same two bodies.
 struct ContactRun {
   std::array<int, 2> body{};  ///< the lower one first
   std::size_t first = 0, last = 0;
 };
 
-/// The runs between cells, sorted by pairs of bodies.
+/// Runs of contacts between cells, sorted by pairs of bodies.
 std::vector<ContactRun> find_runs(std::span<const contact::Contact> contacts) {
   std::vector<ContactRun> runs;
   for (std::size_t k = 0, next; k < contacts.size(); k = next) {
@@ -36,7 +36,7 @@ std::vector<ContactRun> find_runs(std::span<const contact::Contact> contacts) {
   return runs;
 }
 
-/// The nodes that a contact point stands for.
+/// Nodes that a contact point represents.
 std::span<const int> nodes_of(const contact::PointStencil& s) {
   return {s.node.data(), static_cast<std::size_t>(s.n)};
 }

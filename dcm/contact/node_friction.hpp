@@ -1,17 +1,18 @@
 #pragma once
-/// Friction between deformable cells from node to node, as the paper has it.
+/// Friction between deformable cells from node to node [VanLiedekerke2020].
 ///
-/// In a contact with the area A the nodes of the one triangle rub on those of the other, isotropic
-/// in their relative velocity: "each node associated with this triangle acquires a contact area
-/// A/3" [VanLiedekerke2020, Eq. (1) term 2, and below Eq. (17)]. Each of the three nodes shares
-/// its third among the three opposite ones, so that all nine pairs have A/9: a sum that does not
-/// jump when another node becomes the nearest one. With the means v, w of the nodes' velocities
+/// In a contact with the area A the nodes of the one triangle have friction with those of the
+/// other, isotropic in their relative velocity: "each node associated with this triangle acquires a
+/// contact area A/3" [VanLiedekerke2020, Eq. (1) term 2, and below Eq. (17)]. Each of the three
+/// nodes shares its third among the three opposite ones, so that all nine pairs have A/9: a sum
+/// that does not jump when another node becomes the nearest one. With the means v, w of the nodes'
+/// velocities
 ///
 ///     sum_ij A/9 |v_i - w_j|^2 = A (|v - w|^2 + mean |v_i - v|^2 + mean |w_j - w|^2)
 ///
-/// The first part is the friction between facing places; the others hold back a triangle that
-/// stretches or turns although its partner goes along. They shrink with the square of the edges,
-/// and they are not blind to rotation (docs/decisions/0026.md).
+/// The first part is the friction between facing places; the others resist the stretch and rotation
+/// of a triangle even if its partner follows. They shrink with the square of the edges, and they do
+/// not vanish under rotation (docs/decisions/0026.md).
 
 #include <vector>
 

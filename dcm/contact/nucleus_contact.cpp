@@ -16,17 +16,17 @@ namespace {
 
 constexpr auto kProbes = contact::Quadrature::kThreePoint;
 
-/// Kept by each thread: a warmed-up step allocates nothing.
+/// Scratch of a thread, kept: a warmed-up step allocates nothing.
 struct SearchScratch {
   std::vector<int> triangle;    ///< candidates of the block, face by face
   std::vector<float> bound;     ///< um, of the distance of each
   std::vector<double> squared;  ///< um^2, of all triangles from a face
 };
 
-/// Looks from points of a cortex for the nearest places of a nucleus.
+/// Search from points of a cortex for the nearest places of a nucleus.
 class PointSearch {
  public:
-  /// @param horizon  um: places as far are not looked for
+  /// Search within a horizon. @param horizon  um, distance from which on places are ignored
   PointSearch(const contact::SurfaceBody& cortex, const contact::SurfaceBody& nucleus,
               double horizon, SearchScratch& scratch)
       : cortex_(cortex),
@@ -91,7 +91,7 @@ class PointSearch {
   void flush(F found) {
     if (block_.n > 0) {
       contact::find_closest(nucleus_, {triangle_, bound_}, contact::kRounding, horizon_, block_);
-      contact::find_gaps(nucleus_, contact::Place::kRounded, block_);
+      contact::compute_gaps(nucleus_, contact::Place::kRounded, block_);
     }
     for (int i = 0; i < block_.n; ++i) {
       if (block_.triangle[i] < 0) continue;
@@ -114,7 +114,7 @@ class PointSearch {
   std::vector<double>& squared_;
 };
 
-/// Triangles of a surface that come nearer to a point than a distance, um.
+/// Search for the triangles of a surface that are nearer to a point than a distance, um.
 void find_near(const contact::SurfaceBody& b, const Vec3& point, double distance,
                std::vector<int>& near) {
   near.clear();
@@ -122,13 +122,13 @@ void find_near(const contact::SurfaceBody& b, const Vec3& point, double distance
     if ((b.center[t] - point).norm() - b.reach[t] < distance) near.push_back(static_cast<int>(t));
 }
 
-/// Finds the contacts of nucleus `number` of `work`.
+/// Search for the contacts of nucleus `number` of `work`.
 void find_in_cell(const ContactInput& in, const ContactWorkspace& cortices, std::size_t number,
                   NucleusWorkspace& work) {
   const std::size_t body = work.cortex[number], lane = cortices.lane_of_body[body];
   const contact::SurfaceBody &cortex = cortices.body[body], &nucleus = work.body[number];
   const Nucleus& n = *in.params[in.state.group[lane / kLanes].type].nucleus;
-  const double range = n.gap + kNucleusAhead, horizon = std::max(range, in.options.max_depth);
+  const double range = n.gap + kNucleusSkin, horizon = std::max(range, in.options.max_depth);
   const Vec3 middle = 0.5 * (nucleus.box.low + nucleus.box.high);
   double reach = 0;
   for (const Vec3& x : nucleus.node) reach = std::max(reach, (x - middle).norm());

@@ -1,5 +1,5 @@
 #pragma once
-/// Contact of a nucleus with the cortex around it, from inside.
+/// Contact of a nucleus with the inside of its cortex.
 
 #include <vector>
 
@@ -10,23 +10,24 @@
 
 namespace acinus::dcm {
 
-/// A contact of ContactKind::kNucleus joins a point of the cortex
-/// (contact::Quadrature::kThreePoint) and the nearest place of the nucleus. Its gap is that between
-/// the surfaces less the one at which they begin to push. Only the cortex probes: the distance from
-/// a round body to a point outside has a direction that changes smoothly, that from a node of the
-/// nucleus to the hollow cortex around it jumps from face to face, and steps would chatter.
+/// Contacts of ContactKind::kNucleus join a point of the cortex (contact::Quadrature::kThreePoint)
+/// and the nearest place of the nucleus. The gap is that of the surfaces minus the one at which
+/// repulsion begins. Only the cortex probes: the distance from a convex body to a point outside has
+/// a direction that changes smoothly, that from a node of the nucleus to the concave cortex around
+/// it jumps from face to face, and steps would chatter.
 
-/// Scratch; sized by and empty without nuclei.
+/// Scratch of nucleus contacts; empty without nuclei.
 struct NucleusWorkspace {
   std::vector<contact::SurfaceBody> body;  ///< of the nuclei; written by: find_nucleus_contacts
   std::vector<std::size_t> cortex;         ///< [body] number of its cortex in the contact workspace
   std::vector<std::vector<contact::Contact>> found;  ///< [body]; likewise
 };
 
-/// How much farther apart than at contact, um, points are listed: a step may close the gap.
-inline constexpr double kNucleusAhead = 0.5;
+/// Skin of the search, um: gap beyond contact up to which points are listed, as a step may close
+/// it.
+inline constexpr double kNucleusSkin = 0.5;
 
-/// Appends the contacts of all nuclei whose cells move. @pre refresh_bodies
+/// Search for the contacts of all nuclei whose cells move; appends them. @pre refresh_bodies
 void find_nucleus_contacts(const ContactInput& in, const ContactWorkspace& cortices,
                            NucleusWorkspace& work, contact::ContactList& contacts);
 

@@ -13,7 +13,7 @@ namespace {
 
 using contact::Contact, contact::Partner;
 
-/// A point at a vessel, while it is not yet known how the wall yields.
+/// Contact of a point with a vessel, before the indentation of the wall is known.
 struct VesselContact {
   Contact contact;
   double radius = 0;  ///< um, of the vessel at the closest point
@@ -27,8 +27,8 @@ struct VesselScratch {
   std::vector<std::pair<int, double>> deepest;  ///< segment, um
 };
 
-/// Gives the contacts of a body with vessels the stiffness that follows from the deepest of them
-/// with the same segment, and adds those that push where the wall yields no more.
+/// Sets the wall stiffness of a body's contacts with vessels, which follows from the deepest
+/// contact with the same segment, and adds the contacts that act beyond the indentation limit.
 void set_wall_stiffness(const ContactParams& c, const contact::Material& wall,
                         VesselScratch& scratch) {
   std::vector<VesselContact>& found = scratch.found;
@@ -45,7 +45,7 @@ void set_wall_stiffness(const ContactParams& c, const contact::Material& wall,
   }
   for (std::size_t k = 0, n = found.size(); k < n; ++k) {
     Contact& o = found[k].contact;
-    // No deeper than contacts are looked for, with room for what pushes behind it.
+    // At most half the search depth, so that contacts beyond the limit are still found.
     const double limit = std::min(contact::yield_limit(wall, found[k].radius), c.max_depth / 2);
     const double k_bed = wall_stiffness(c.repulsion, wall, found[k].radius, depth_at(o.b));
     if (o.guard) {
@@ -54,7 +54,7 @@ void set_wall_stiffness(const ContactParams& c, const contact::Material& wall,
       continue;
     }
     o.stiffness = k_bed;
-    // There before it pushes, as it may come to within a step.
+    // Listed before it pushes, as a step may bring the point there.
     if (limit == 0 || -o.gap < limit / 2) continue;
     VesselContact stop = found[k];
     stop.contact.stiffness = c.repulsion - o.stiffness;
@@ -63,7 +63,7 @@ void set_wall_stiffness(const ContactParams& c, const contact::Material& wall,
   }
 }
 
-/// A body and the vessels that its points may touch.
+/// Body and the vessels that its points may touch.
 struct BodyAtVessels {
   const contact::SurfaceBody& body;
   int number;
@@ -86,8 +86,8 @@ class VesselSearch {
         wall_(at.wall),
         scratch_(scratch) {}
 
-  /// Finds one contact per point, with the nearest segment of the network or with the surface about
-  /// it, then those of the guards, which look at segments.
+  /// Search for one contact per point, with the nearest segment of the network or with the surface
+  /// about it, then for those of the guards, with segments.
   void find() {
     scratch_.found.clear();
     if (vessels_.wall)
@@ -139,8 +139,8 @@ class VesselSearch {
       }
   }
 
-  /// A node belongs to several faces; the deepest of what they see counts, once.
-  void look(std::size_t site, int number) {
+  /// Updates a guard. A node belongs to several faces; its deepest contact counts, once.
+  void update_guard(std::size_t site, int number) {
     const std::size_t i = number;
     const Vec3& x = i < b_.node.size() ? b_.node[i] : b_.center[i - b_.node.size()];
     const VesselContact best = nearest(site, number, x);
@@ -153,12 +153,12 @@ class VesselSearch {
   void find_guards_of_faces() {
     const int n_node = static_cast<int>(b_.node.size());
     for (std::size_t s = 0; s < list_.site.size(); ++s) {
-      for (int p : (*b_.triangle)[list_.site[s]]) look(s, p);
-      look(s, n_node + list_.site[s]);
+      for (int p : (*b_.triangle)[list_.site[s]]) update_guard(s, p);
+      update_guard(s, n_node + list_.site[s]);
     }
   }
 
-  /// Where the nodes are points themselves only faces need a guard: a thin vessel could pass
+  /// Search for the guards of faces where the nodes are points themselves: a thin vessel could pass
   /// between the points.
   void find_guards_between_nodes() {
     const int n_node = static_cast<int>(b_.node.size());
@@ -168,7 +168,8 @@ class VesselSearch {
       list_of_node[list_.site[s]] = static_cast<int>(s);
     for (std::size_t f = 0; f < b_.triangle->size(); ++f)
       for (int corner : (*b_.triangle)[f])
-        if (const int s = list_of_node[corner]; s >= 0) look(s, n_node + static_cast<int>(f));
+        if (const int s = list_of_node[corner]; s >= 0)
+          update_guard(s, n_node + static_cast<int>(f));
   }
 
   const contact::SurfaceBody& b_;

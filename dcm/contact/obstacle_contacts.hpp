@@ -1,5 +1,5 @@
 #pragma once
-/// Contacts of deformable cells with walls and vessels, and their guards (contact_points.hpp).
+/// Contacts of deformable cells and their guards (contact_points.hpp) with walls and vessels.
 
 #include <vector>
 
@@ -7,13 +7,13 @@
 
 namespace acinus::dcm {
 
-/// Appends those of one body.
+/// Search for the contacts of one body with walls and vessels; appends them.
 /// @param range  um, largest gap of interest
 void find_obstacle_contacts(const ContactInput& in, const ContactWorkspace& work, int number,
                             double range, std::vector<contact::Contact>& out);
 
-/// Takes the contacts with the surface of vessels, which is searched for with the static meshes,
-/// out of those of surfaces: find_obstacle_contacts gives them what vessels are.
+/// Move the contacts with the surface of vessels from those of surfaces to `work`. They are found
+/// with the static meshes; find_obstacle_contacts then completes them as contacts with vessels.
 void take_wall_contacts(const ContactInput& in, ContactWorkspace& work,
                         std::vector<contact::Contact>& all);
 

@@ -28,7 +28,7 @@ Vec3 place_at(const Corners& x, const std::array<double, 3>& w) {
   return w[0] * x[0] + w[1] * x[1] + w[2] * x[2];
 }
 
-/// Barycentric weights of the place of a triangle that lies before or behind x along the normal.
+/// Barycentric weights of the place of a triangle on the line through x along the normal.
 std::array<double, 3> weights_along(const Vec3& normal, const Corners& corner, const Vec3& x) {
   const Vec3 u = corner[1] - corner[0], v = corner[2] - corner[0], d = x - corner[0];
   const double whole = normal.dot(u.cross(v));
@@ -49,7 +49,7 @@ contact::MaugisLaw law_between(const ContactInput& in, const ContactWorkspace& w
   return {c.modulus, adhesion, adhesion / c.cohesive_range, c.max_radius};
 }
 
-/// Largest gap between two spheres at which they act on each other, um: it grows with the radius.
+/// Largest gap at which two spheres exert forces on each other, um: it grows with the radius.
 double largest_gap(const contact::MaugisLaw& law) {
   if (law.adhesion == 0) return 0;
   return -contact::make_maugis_curve(
@@ -62,7 +62,7 @@ bool are_constrained(const ContactWorkspace& work, int a, int b) {
          work.body_constrained[b] != 0;
 }
 
-/// The triangles of a body that come near a box.
+/// Triangles of a body near a box.
 std::vector<int> triangles_near(const SurfaceBody& body, const Box& box, double reach) {
   std::vector<int> near;
   const Box around = box.grown(reach + *std::ranges::max_element(body.reach));
@@ -71,12 +71,12 @@ std::vector<int> triangles_near(const SurfaceBody& body, const Box& box, double 
   return near;
 }
 
-/// All contacts of two bodies.
+/// Search for all contacts of two bodies.
 struct BodyPair {
   const ContactWorkspace& work;
   contact::MaugisLaw law;
   int a, b;
-  double reach;  ///< um, how far apart places of two triangles in contact may be
+  double reach;  ///< um, largest distance of places of two triangles in contact
 
   void find(std::vector<Contact>& out) const {
     const SurfaceBody &body_a = work.body[a], &body_b = work.body[b];
@@ -115,7 +115,7 @@ struct BodyPair {
   }
 };
 
-/// Contacts of each cell with itself, by points.
+/// Search for contacts of each cell with itself, by points.
 void find_folds(const contact::SearchOptions& options, ContactWorkspace& work) {
   const std::vector<contact::Candidates>& pair = work.lists.pair;
   for_each_index(pair.size(), true, [&](std::size_t k) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The list of a deformable cell's own terms; a term with a zero coefficient is never entered.
+/// List of the terms within a deformable cell; a term with a zero coefficient is skipped.
 
 #include <span>
 #include <string>
@@ -14,8 +14,8 @@
 
 namespace acinus::dcm {
 
-/// Sizes the rank-one families that are needed (volume, area, the same of nuclei, further ones; in
-/// this order); empty when none.
+/// Sizes the rank-one families in use (volume, area, the same of nuclei, further ones; in this
+/// order); empty if there are none.
 /// @param n_further  families of loads from outside the cells
 void size_rank_one(const State& state, std::span<const Params> params, solve::System& system,
                    std::size_t n_further = 0);

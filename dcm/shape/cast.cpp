@@ -11,9 +11,10 @@ namespace acinus::dcm {
 
 namespace {
 
-// Chosen by trial on spheres, ellipsoids, crescents and polyhedra: even sweeps first, more of them
-// where the mesh is far from even, then gentler ones in which ridges win over evenness. The first
-// kind may spoil a triangle down to a low quality, or strongly stretched meshes would lock.
+// Weights of a sweep, chosen by trial on spheres, ellipsoids, crescents and polyhedra: even sweeps
+// first, more of them where the mesh is far from even, then gentler ones in which ridges win over
+// evenness. The first kind may spoil a triangle down to a low quality, or strongly stretched meshes
+// would lock.
 struct Sweep {
   double even = 0;     // part of the way to the centroid of the triangles around
   double uphill = 0;   // step up in volume, per slope and length
@@ -36,7 +37,7 @@ class Spreader {
         face_[i] = at = star.cast(node[i] - star.center(), at).triangle;
   }
 
-  // Returns how far the node went, as part of the mean edge.
+  // Moves a node; returns the distance as part of the mean edge.
   double move(int node, const Sweep& sweep) {
     const std::size_t i = node;
     if (rule_.part[i] == Part::kRim) return 0;
@@ -87,7 +88,7 @@ class Spreader {
     return target;
   }
 
-  // Of the triangles around a node placed at x; negative if one is inverted.
+  // Worst quality of the triangles around a node placed at x; negative if one is inverted.
   double worst_quality(int node, const Vec3& x) const {
     double worst = 1;
     for (const int t : triangles_around(node)) {

@@ -12,26 +12,26 @@
 
 namespace acinus::dcm {
 
-/// The parts of the mesh of a cell that has just divided.
+/// Parts of the mesh of a newborn daughter cell.
 enum class Part : char {
   kCap,   ///< inside the cut face
   kRim,   ///< on the edge of the cut face
   kShell  ///< on the mother's surface
 };
 
-/// The nodes of a sphere mesh cast along their rest directions, turned by `rotation`, from `center`
-/// onto a closed surface. No face is inverted and no two cross. Nothing when the surface is not
+/// Nodes of a sphere mesh cast along their rest directions, turned by `rotation`, from `center`
+/// onto a closed surface. No face is inverted and no two cross. Empty when the surface is not
 /// star-shaped from the centre.
 std::optional<std::vector<Vec3>> cast_sphere(const geometry::Topology& topology,
                                              const geometry::Surface& surface, const Vec3& center,
                                              const Mat3& rotation = Mat3::Identity());
 
-/// Whether every face is seen from its inner side: with the topology of a sphere, a surface without
+/// True if every face is seen from its inner side: with the topology of a sphere, a surface without
 /// folds that does not cross itself.
 bool faces_outward(const geometry::Topology& topology, std::span<const Vec3> node,
                    const Vec3& center);
 
-/// Where the nodes of a mesh may go while they are spread.
+/// Constraints on the nodes of a mesh while they are spread.
 struct SpreadRule {
   std::span<const Part> part;  ///< [n_node] rim nodes stay, cap nodes follow their neighbours
                                ///< without being cast, shell nodes keep on the surface
@@ -39,14 +39,15 @@ struct SpreadRule {
 };
 
 /// Spreads the nodes of a mesh around a star-shaped surface. Each sweep moves every free node
-/// towards the centroid of the triangles around it and, on the surface, uphill in volume: nodes
-/// seek ridges, so that chords cut off less. Moves that fold a triangle or spoil a good one are
-/// refused.
+/// towards the centroid of the triangles around it and, on the surface, along the gradient of the
+/// volume: nodes move to ridges, so that chords cut off less. Moves that fold a triangle or spoil a
+/// good one are rejected.
 /// @param node  [n_node] um, shell nodes on the surface; in and out. @pre faces_outward
 void spread_nodes(const geometry::Topology& topology, const geometry::StarSurface& star,
                   const SpreadRule& rule, std::span<Vec3> node);
 
-/// Both: a fresh mesh of a surface that is star-shaped from the centre; nothing if it is not.
+/// Fresh mesh of a surface that is star-shaped from the centre, cast and spread; empty if it is
+/// not.
 std::optional<std::vector<Vec3>> cast_and_spread(const geometry::Topology& topology,
                                                  const geometry::Surface& surface,
                                                  const Vec3& center, const Mat3& rotation);

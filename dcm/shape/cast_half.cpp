@@ -12,14 +12,14 @@ namespace acinus::dcm {
 
 namespace {
 
-// Parts of an icosahedron edge, 0 if the mesh is no icosphere.
+// Number of parts of an icosahedron edge, 0 if the mesh is no icosphere.
 int count_edge_parts(const geometry::Topology& topology) {
   for (int parts = 1; parts <= 16; ++parts)
     if (topology.n_node == 10 * parts * parts + 2) return parts;
   return 0;
 }
 
-// Edges between each node and node 0.
+// Number of edges between each node and node 0.
 std::vector<int> count_edges_to_pole(const geometry::Topology& topology) {
   std::vector<int> distance(topology.n_node, -1), queue = {0};
   distance[0] = 0;
@@ -35,7 +35,7 @@ std::vector<int> count_edges_to_pole(const geometry::Topology& topology) {
   return distance;
 }
 
-// Where a node lies between the pole, the ring and the opposite pole.
+// Position of a node between the pole, the ring and the opposite pole.
 struct RingPlace {
   double around = 0;  // along the ring, 0 to 1
   double depth = 0;   // cap: 0 pole, 1 ring; shell: 0 ring, 1 opposite pole
@@ -88,7 +88,7 @@ std::vector<RingPlace> make_places(const geometry::Topology& topology,
   return out;
 }
 
-// A closed polygon by its length.
+// Closed polygon, parametrised by its length.
 class Polygon {
  public:
   explicit Polygon(std::span<const Vec3> point) : point_(point), length_{0} {

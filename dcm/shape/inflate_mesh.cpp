@@ -12,15 +12,15 @@
 namespace acinus::dcm {
 namespace {
 
-/// The ball at the start, of the largest one inside.
+/// Initial radius of the ball, over that of the largest one inside.
 constexpr double kStart = 0.9;
-/// Farthest move outward and along the mesh in a sweep, in mean edges.
+/// Largest move outward and along the mesh in a sweep, in mean edges.
 constexpr double kOutward = 0.15, kAlong = 0.5;
-/// At the surface, and at rest: in mean edges.
-constexpr double kThere = 0.02, kRest = 0.01;
+/// Distance that counts as on the surface, and largest move that counts as rest, in mean edges.
+constexpr double kOnSurface = 0.02, kLeastMove = 0.01;
 constexpr int kMostInflations = 600;
 
-/// A triangle below this may not become worse.
+/// Quality of triangles that may not become worse.
 constexpr double kQuality = 0.3;
 
 class Balloon {
@@ -31,7 +31,8 @@ class Balloon {
 
   std::vector<Vec3> take_nodes() { return std::move(node_); }
 
-  /// @return how far the farthest node went, in mean edges; 1 while some are not at the surface
+  /// Moves every node once.
+  /// @return largest move, in mean edges; 1 while some nodes are not at the surface
   double sweep() {
     edge_ = mean_edge();
     double farthest = 0;
@@ -76,17 +77,18 @@ class Balloon {
     return 0;
   }
 
-  /// Outward by less than the surface is away, so that none is ever passed; on it if it is near.
+  /// Outward step of a node, below the distance of the surface so that it is never passed; onto it
+  /// if it is near.
   Vec3 step_from(const Vec3& x, const Vec3& normal, char& on_surface) const {
     const Vec3 nearest = body_.closest_point(x);
     const double distance = (nearest - x).norm();
-    const double near = (on_surface != 0 ? kOutward : kThere) * edge_;
+    const double near = (on_surface != 0 ? kOutward : kOnSurface) * edge_;
     on_surface = distance < near || body_.locate(x) == geometry::Location::kOutside;
     if (on_surface != 0) return nearest;
     return x + std::min(kOutward * edge_, distance) * normal;
   }
 
-  /// Whether no triangle around a node turns over, or becomes worse than it may.
+  /// True if no triangle around a node is inverted, or becomes worse than permitted.
   bool may_stand(std::size_t i, const Vec3& to) const {
     for (const int k : triangles_around(i)) {
       std::array<Vec3, 3> before, after;
@@ -124,7 +126,7 @@ std::vector<Vec3> inflate_mesh(const geometry::Topology& topology, const geometr
   for (const Vec3& x : topology.rest)
     node.push_back(ball.center + kStart * ball.radius * (rotation * x));
   Balloon balloon(topology, body, std::move(node));
-  for (int sweep = 0; sweep < kMostInflations && balloon.sweep() > kRest; ++sweep) {
+  for (int sweep = 0; sweep < kMostInflations && balloon.sweep() > kLeastMove; ++sweep) {
   }
   return balloon.take_nodes();
 }

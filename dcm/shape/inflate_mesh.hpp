@@ -1,5 +1,5 @@
 #pragma once
-/// A cell's mesh blown up inside a closed surface that no point sees whole.
+/// Mesh of a cell inflated inside a closed surface that is not star-shaped.
 
 #include <vector>
 
@@ -9,14 +9,14 @@
 
 namespace acinus::dcm {
 
-/// Starts as the largest ball inside the surface. Nodes go outward, no farther than the surface is
-/// away, and along the mesh to the middle of the triangles around them, so that these stay alike
-/// while the mesh flows into every arm; where they have come to the surface they stay on it: a
-/// balloon [McInerney1996] with the evenness of dcm/shape/cast.hpp. Pure geometry. A thin arm,
-/// narrower than the mesh is fine, is left empty.
+/// Nodes of a sphere mesh inflated inside a surface, from the largest ball inside. Nodes move
+/// outward, by no more than the distance of the surface, and along the mesh to the middle of the
+/// triangles around them, so that these stay alike while the mesh flows into every arm. Nodes that
+/// have reached the surface stay on it: a balloon [McInerney1996] with the evenness of
+/// dcm/shape/cast.hpp. Pure geometry. An arm too narrow for the mesh is left empty.
 /// @param surface   closed, outward
-/// @param rotation  of the sphere mesh at the start
-/// @return          [n_node] um; may be bad: to be checked
+/// @param rotation  initial rotation of the sphere mesh
+/// @return          [n_node] um; may be of bad quality: to be checked
 std::vector<Vec3> inflate_mesh(const geometry::Topology& topology, const geometry::Surface& surface,
                                const Mat3& rotation);
 

@@ -15,10 +15,10 @@
 namespace acinus::dcm {
 namespace {
 
-/// Triangles worse than this are not accepted.
+/// Least quality of the triangles of an accepted mesh.
 constexpr double kLeastQuality = 0.1;
 
-/// Makes the volume exact, and says what is wrong with the mesh.
+/// Makes the volume exact; returns the defect of the mesh, empty if it has none.
 std::string finish(const geometry::Topology& topology, double volume, std::vector<Vec3>& node) {
   const std::vector<double> weight(node.size(), 1);
   if (!match_volume(topology, volume, weight, node))

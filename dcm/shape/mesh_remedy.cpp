@@ -17,18 +17,18 @@
 namespace acinus::dcm {
 namespace {
 
-/// Nodes of the sphere that takes the print of a folded surface.
-constexpr int kPrintNodes = 2562;
-/// Sweeps over poor nodes at most: enough for room to be made over a mesh ten nodes across.
+/// Nodes of the sphere mesh for the outer surface of a folded mesh.
+constexpr int kOuterNodes = 2562;
+/// Largest number of sweeps over poor nodes: enough to relax a mesh ten nodes across.
 constexpr int kRemedySweeps = 60;
-/// Nodes of triangles worse than this are relaxed.
+/// Quality below which a triangle has its nodes relaxed.
 constexpr double kMiddling = 0.3;
-/// How far above and below a relaxed node the old surface is looked for, in mean edges.
+/// Distance above and below a relaxed node at which the old surface is searched, in mean edges.
 constexpr double kReach = 0.5;
-/// Times a candidate is fitted to the old surface, and the share of its distance it goes each time.
+/// Number of fits of a candidate to the old surface, and the share of its distance moved in each.
 constexpr int kFits = 8;
 constexpr double kFit = 0.7;
-/// A fit must bring the farthest point outside down to this share of what it was.
+/// Largest ratio of the distances outside after and before a fit that is worth keeping.
 constexpr double kWorthFitting = 0.97;
 
 const Vec3& at(std::span<const Vec3> node, int i) { return node[i]; }
@@ -43,9 +43,9 @@ double face_quality(const geometry::Topology& t, std::span<const Vec3> node, int
   return geometry::compute_triangle_quality(at(node, i), at(node, j), at(node, k));
 }
 
-/// The turn that brings the rest shape nearest to these nodes, so that what is sound stays about
-/// where it is.
-Mat3 find_rotation(const geometry::Topology& t, std::span<const Vec3> node, const Vec3& center) {
+/// Rotation that brings the rest shape nearest to these nodes, so that sound parts stay about in
+/// place.
+Mat3 fit_rotation(const geometry::Topology& t, std::span<const Vec3> node, const Vec3& center) {
   Mat3 moment = Mat3::Zero();
   for (std::size_t i = 0; i < node.size(); ++i)
     moment += (node[i] - center) * t.rest[i].transpose();
@@ -55,34 +55,34 @@ Mat3 find_rotation(const geometry::Topology& t, std::span<const Vec3> node, cons
   return svd.matrixU() * sign * svd.matrixV().transpose();
 }
 
-/// What a folded surface shows to the outside: where rays from its centroid leave it for good.
-std::optional<geometry::Surface> take_print(const geometry::AuditBody& body) {
+/// Outer surface of a folded mesh: the last intersections of rays from its centroid.
+std::optional<geometry::Surface> cast_outer_surface(const geometry::AuditBody& body) {
   if (body.locate(body.centroid) != geometry::Location::kInside) return std::nullopt;
-  const geometry::Topology& sphere = geometry::shared_icosphere(kPrintNodes);
+  const geometry::Topology& sphere = geometry::shared_icosphere(kOuterNodes);
   const double far = 2 * (body.box.high - body.box.low).norm();
-  geometry::Surface print;
-  print.triangle = sphere.triangle;
+  geometry::Surface outer;
+  outer.triangle = sphere.triangle;
   for (const Vec3& rest : sphere.rest) {
     const Vec3 ray = far * rest.normalized();
     const std::vector<double> hit = body.crossings(body.centroid, body.centroid + ray);
     if (hit.empty()) return std::nullopt;
-    print.node.push_back(body.centroid + hit.back() * ray);
+    outer.node.push_back(body.centroid + hit.back() * ray);
   }
-  return print;
+  return outer;
 }
 
 std::optional<std::vector<Vec3>> make_fresh(const geometry::Topology& t, std::span<const Vec3> node,
                                             const geometry::AuditBody& body) {
   const geometry::Surface surface{{node.begin(), node.end()}, t.triangle};
   if (const auto center = geometry::find_star_center(surface))
-    return cast_and_spread(t, surface, *center, find_rotation(t, node, *center));
-  const auto print = take_print(body);
-  if (!print) return std::nullopt;
-  return cast_and_spread(t, *print, body.centroid, find_rotation(t, node, body.centroid));
+    return cast_and_spread(t, surface, *center, fit_rotation(t, node, *center));
+  const auto outer = cast_outer_surface(body);
+  if (!outer) return std::nullopt;
+  return cast_and_spread(t, *outer, body.centroid, fit_rotation(t, node, body.centroid));
 }
 
-/// Sweeps over the poor nodes of a mesh. A node is poor while a face beside it is poorer than
-/// middling, so that room is made by ever more nodes until all have enough.
+/// Sweeps over the poor nodes of a mesh. A node is poor while a face beside it is of low quality,
+/// so that the moving region grows until all faces are good enough.
 class Relaxer {
  public:
   Relaxer(const geometry::Topology& t, std::span<const Vec3> node, const geometry::AuditBody& body)
@@ -108,8 +108,7 @@ class Relaxer {
         .subspan(first, static_cast<std::size_t>(topology_.node_triangle_start[k + 1]) - first);
   }
 
-  /// Outward directions from the faces of two rings: a few that lie the wrong way round are
-  /// outvoted.
+  /// Outward directions from the faces of two rings: a few inverted ones are outvoted.
   void update_normals() {
     std::vector<Vec3> one(node_.size(), Vec3::Zero());
     for (int f = 0; f < topology_.n_triangle; ++f) {
@@ -125,7 +124,7 @@ class Relaxer {
     }
   }
 
-  /// Worst quality of the faces around a node placed at x; negative for one the wrong way round.
+  /// Worst quality of the faces around a node placed at x; negative if one is inverted.
   double worst_around(int i, const Vec3& x) const {
     double worst = 1;
     for (const int f : faces_around(i)) {
@@ -141,14 +140,14 @@ class Relaxer {
     return worst;
   }
 
-  /// Onto the outermost layer of the old surface above or below a point.
+  /// Projection of a point onto the outermost layer of the old surface above or below it.
   Vec3 put_on_surface(const Vec3& x, const Vec3& normal) const {
     const Vec3 reach = kReach * length_ * normal;
     const std::vector<double> hit = body_.crossings(x - reach, x + reach);
     return hit.empty() ? body_.closest_point(x) : Vec3(x - reach + 2 * hit.back() * reach);
   }
 
-  /// Moves a poor node towards the middle of the faces around it if that helps.
+  /// Moves a poor node towards the middle of the faces around it if that improves them.
   bool improve(int i) {
     const std::size_t k = i;
     const double before = worst_around(i, node_[k]);
@@ -159,7 +158,7 @@ class Relaxer {
     middle /= topology_.ring_start[k + 1] - topology_.ring_start[k];
     for (const double part : {1.0, 0.5, 0.2}) {
       const Vec3 to = put_on_surface(node_[k] + part * (middle - node_[k]), normal_[k]);
-      // A fold opens only if its nodes may go where they fit no better at first.
+      // A fold opens only if its nodes may move although they improve nothing at first.
       if (worst_around(i, to) <= before && !(before < 0 && part == 1.0)) continue;
       node_[k] = to;
       return true;
@@ -202,8 +201,8 @@ SurfaceShift find_shift(const geometry::AuditBody& old_body, const geometry::Aud
   return shift;
 }
 
-/// Moves the nodes along their normals so that the surface between them stands off the old one as
-/// little outside as inside: faces bridge a valley, and their nodes are not to stand on its banks.
+/// Moves the nodes along their normals so that the new surface deviates from the old one as little
+/// outside as inside: faces bridge a valley, and their nodes should not lie on its rims.
 /// @param distance  of the samples of `body`, the surface of these nodes
 void fit_surface(const geometry::Topology& t, const geometry::AuditBody& body,
                  const std::vector<double>& distance, std::span<Vec3> node) {
@@ -232,7 +231,7 @@ void fit_surface(const geometry::Topology& t, const geometry::AuditBody& body,
     if (weight[i] > 0) node[i] -= kFit * sum[i] / weight[i] * area[i].normalized();
 }
 
-/// Whether a candidate is sound; its figures go to `m`.
+/// True if a candidate is sound; its measures go to `m`.
 bool is_sound(const Old& old, std::span<const Vec3> node, Mended& m) {
   m.after = measure_health(old.topology, node, old.radius);
   m.area_change = geometry::compute_area(node, old.topology.triangle) / old.area - 1;

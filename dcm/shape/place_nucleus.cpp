@@ -11,17 +11,17 @@
 namespace acinus::dcm {
 namespace {
 
-/// A cell too thin for its nucleus has one this much smaller at least; its bulk modulus and the
-/// contact then find what room there is.
+/// Least size of a nucleus over that at rest, for a cell too thin for it; its bulk modulus and the
+/// contact then adapt it to the available volume.
 constexpr double kSmallest = 0.5;
 
 const std::vector<int>& link_ends(const Group& g) {
   return shared_link_ends(*g.topology, *g.nucleus.topology);
 }
 
-/// The rotation that brings the nodes of a nucleus at rest nearest to the directions in which the
-/// nodes of the cortex stand that they are linked to (least squares).
-Mat3 find_rotation(const Group& g, std::span<const Vec3> node, const Vec3& center) {
+/// Rotation that brings the nodes of a nucleus at rest nearest to the directions of the cortex
+/// nodes that they are linked to (least squares).
+Mat3 fit_rotation(const Group& g, std::span<const Vec3> node, const Vec3& center) {
   Mat3 sum = Mat3::Zero();
   for (int i = 0; i < g.nucleus.n_node(); ++i)
     sum += (node[link_ends(g)[i]] - center).normalized() *
@@ -39,7 +39,7 @@ std::vector<Vec3> place_nucleus(const Group& g, std::span<const Vec3> node, doub
   const geometry::InnerBall ball =
       geometry::find_inner_ball({{node.begin(), node.end()}, g.topology->triangle});
   const double r = std::clamp(ball.radius - gap, kSmallest * radius, radius);
-  const Mat3 rotation = find_rotation(g, node, ball.center);
+  const Mat3 rotation = fit_rotation(g, node, ball.center);
   std::vector<Vec3> nucleus;
   for (const Vec3& x : g.nucleus.topology->rest)
     nucleus.push_back(ball.center + r * (rotation * x));
@@ -50,7 +50,7 @@ std::vector<Vec3> turn_nucleus(const Group& g, std::span<const Vec3> node,
                                std::span<const Vec3> old) {
   const geometry::Surface surface{{old.begin(), old.end()}, g.nucleus.topology->triangle};
   const Vec3 center = geometry::compute_centroid(surface.node, surface.triangle);
-  return cast_sphere(*g.nucleus.topology, surface, center, find_rotation(g, node, center))
+  return cast_sphere(*g.nucleus.topology, surface, center, fit_rotation(g, node, center))
       .value_or(std::vector<Vec3>{});
 }
 

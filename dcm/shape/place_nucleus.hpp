@@ -1,6 +1,6 @@
 #pragma once
-/// Nuclei of cells whose cortex is new: of daughters, and of cells with a mended mesh. Pure
-/// geometry: no state is touched.
+/// Nuclei of cells with a new cortex: of daughters, and of cells with a mended mesh. Pure geometry:
+/// no state is changed.
 
 #include <span>
 #include <vector>
@@ -10,16 +10,16 @@
 
 namespace acinus::dcm {
 
-/// A round nucleus in the largest ball within a cortex, smaller than at rest where that leaves no
-/// room, and turned so that its links run outward.
+/// Round nucleus in the largest ball within a cortex, smaller than at rest if that ball is too
+/// small, and turned so that its links run outward.
 /// @param node    [n_node] um, of the cortex
 /// @param radius  um, of the nucleus at rest
-/// @param gap     um, that it keeps from the cortex if it can
+/// @param gap     um, distance kept from the cortex where possible
 std::vector<Vec3> place_nucleus(const Group& group, std::span<const Vec3> node, double radius,
                                 double gap);
 
-/// The mesh of a nucleus turned on its own surface as a new mesh of the cortex is turned, so that
-/// its links run outward again; empty where that surface hides part of itself from its centre.
+/// Mesh of a nucleus turned on its own surface like a new mesh of the cortex, so that its links run
+/// outward again; empty where that surface is not star-shaped from its centre.
 /// @param old  [n_node of the nucleus] um
 std::vector<Vec3> turn_nucleus(const Group& group, std::span<const Vec3> node,
                                std::span<const Vec3> old);

@@ -10,7 +10,7 @@
 namespace acinus::dcm {
 namespace {
 
-/// Nodes of the sphere on which a room is looked at, and over whose faces meshes are spread.
+/// Nodes of the sphere that samples an available volume and over whose faces meshes are spread.
 constexpr int kShowingNodes = 642;
 constexpr double kLeastShare = 0.25;
 constexpr int kBisections = 50;
@@ -76,7 +76,8 @@ std::vector<Vec3> Room::fill(const geometry::Topology& t, std::span<const Vec3> 
   const geometry::StarSurface star({show(radius), showing_sphere().triangle}, center_);
   const std::vector<Part> part(node.size(), Part::kShell);
   spread_nodes(t, star, {part, showing_sphere().n_triangle}, node);
-  // Spreading evens out long triangles beside rims; where it does not help, rays will do.
+  // Spreading evens out long triangles beside rims; where it does not help, the cast nodes are
+  // used.
   return geometry::compute_quality(node, t.triangle) > geometry::compute_quality(cast, t.triangle)
              ? node
              : cast;

@@ -11,7 +11,7 @@ namespace acinus::dcm {
 namespace {
 
 constexpr int kMostRoundings = 30;
-/// Share of the way to the mean of its neighbours that a node goes in a sweep.
+/// Share of the distance to the mean of its neighbours that a node moves in a sweep.
 constexpr double kShare = 0.3;
 
 Vec3 area_vector(const geometry::Topology& t, std::span<const Vec3> node, int triangle) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Folds of a mesh no sharper than the shell it stands for can be bent.
+/// Rounding of folds that are sharper than the shell of the mesh can bend.
 
 #include <span>
 

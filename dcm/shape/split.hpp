@@ -20,21 +20,22 @@ namespace acinus::dcm {
 std::optional<double> match_volume_along(const geometry::Topology& topology, double target_volume,
                                          std::span<const Vec3> direction, std::span<Vec3> node);
 
-/// As match_volume_along, along the normals of the nodes (area-weighted, length 1) times `weight`
-/// [n_node]; a weight of zero keeps a node where it is.
+/// Moves nodes along their normals (area-weighted, length 1) times `weight` [n_node] to a volume,
+/// like match_volume_along; a weight of zero keeps a node in place.
 bool match_volume(const geometry::Topology& topology, double target_volume,
                   std::span<const double> weight, std::span<Vec3> node);
 
-/// Below (0) and above (1) the plane; both meshes have the mother's topology and volume_mother / 2.
+/// Shapes below (0) and above (1) the plane; both meshes have the mother's topology and
+/// volume_mother / 2.
 struct DaughterShapes {
   geometry::CutPlane plane;
-  std::vector<Vec3> rim;   ///< where the plane cuts the mother, in order
+  std::vector<Vec3> rim;   ///< intersection of the plane with the mother's surface, in order
   double rim_length = 0;   ///< um
   std::vector<Part> part;  ///< [n_node] of both; cap and rim nodes lie in the plane or are rounded
   std::array<std::vector<Vec3>, 2> node;  ///< um; the rims of both have the same points
   /// Part of the half's volume that chords cut off, before the nodes were moved out to regain it.
   std::array<double, 2> chord_loss{};
-  std::array<double, 2> outset{};  ///< um; how far rim and shell nodes stand outside the mother
+  std::array<double, 2> outset{};  ///< um; distance of rim and shell nodes outside the mother
 };
 
 enum class SplitFailure {
@@ -58,7 +59,7 @@ struct Split {
 /// itself
 /// @param thickness  um, of the cortex: a rim sharper than a shell so thick can be bent is rounded,
 ///                   and a little of the plane's edge is lost
-/// @param turn       turns both meshes about the normal, part of the rim's length
+/// @param turn       rotation of both meshes about the normal, as part of the rim's length
 Split split_cell(const geometry::Topology& topology, std::span<const Vec3> node, const Vec3& normal,
                  double thickness = 0, double turn = 0);
 

@@ -8,7 +8,7 @@
 namespace acinus::dcm {
 namespace {
 
-/// gradient += dA/dx; area = A.
+/// Adds dA/dx to `gradient` and writes the area A.
 ACINUS_KERNEL void area_kernel(const GroupView& g, double* gradient, double* area) {
   Lane sum = lane_of(0);
   for (const auto& f : g.topology->triangle) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Membrane: resistance to change of the whole surface's area.
+/// Membrane: resistance to changes of the area of the whole surface.
 
 #include "dcm/group_view.hpp"
 #include "dcm/params.hpp"
@@ -9,8 +9,8 @@ namespace acinus::dcm {
 
 /// Adds E = K_A (A - A0)^2 / (2 A0), force = -K_A (A - A0)/A0 dA/dx, with the area A of the whole
 /// cell. [VanLiedekerke2020, Eq. (12), in its energy form] Stiffness: (K_A / A0) g g^T, rank one,
-/// and under tension sigma = K_A (A - A0)/A0 > 0 what holds the surface flat: sigma/sqrt(3) (I - u
-/// u^T) per edge, the cotangent weight of near-equilateral triangles. Without that part stretched
+/// and under tension sigma = K_A (A - A0)/A0 > 0 the geometric stiffness sigma/sqrt(3) (I - u u^T)
+/// per edge, with the cotangent weight of near-equilateral triangles. Without that part stretched
 /// cells chatter (docs/decisions/0007.md).
 void add_area(const Params& p, const GroupView& g, solve::System& system, solve::RankOne& family);
 

@@ -6,25 +6,24 @@
 namespace acinus::dcm {
 namespace {
 
-/// A barrier against two faces that fold onto each other,
-/// fold = max(0, start - cos theta) / (1 + cos theta).
+/// Barrier against two faces that fold onto each other, fold = max(0, start - cos theta) / (1 + cos
+/// theta).
 struct Barrier {
   double start;  ///< cos theta where it begins
-  double
-      floor;  ///< 1 + cos theta below which it goes on as a straight line: all numbers are finite
+  double floor;  ///< 1 + cos theta below which it is linear, so that all numbers are finite
 };
-/// Bending begins to resist at 60 degrees between the faces, and is linear below 11.
+/// Barrier of bending: begins at 60 degrees between the faces, and is linear below 11.
 constexpr Barrier kBending{-0.5, 0.02};
-/// Contact of the faces begins at 26 degrees, and is linear below 3.6.
+/// Barrier of contact of the faces: begins at 26 degrees, and is linear below 3.6.
 constexpr Barrier kTouching{-0.9, 0.002};
-/// Depth, um, at which faces pressed on each other hold the energy that the barrier of contact is
-/// measured in.
+/// Depth at which two faces pressed on each other have the energy scale of the barrier of contact,
+/// um.
 constexpr double kTouchDepth = 0.1;
 
 /// Share of its reference area below which a face resists collapse.
 constexpr double kLeastArea = 0.1;
 
-/// What a face is to its hinges: k_b compression^2 / 3 in each of the three.
+/// Collapse of a face: k_b compression^2 / 3 in each of its three hinges.
 struct Collapse {
   Lane compression;  ///< kLeastArea a0 / a - 1
   Lane slope;        ///< -d compression / d a, 1/um^2
@@ -64,7 +63,7 @@ struct FoldLaw {
   Lane moment, slope;
 };
 
-/// Of fold^2.
+/// Derivatives of fold^2.
 ACINUS_INLINE FoldLaw barrier_law(const Barrier& barrier, Lane cos_theta, Lane sin_theta) {
   // Below the floor, fold goes on along its tangent.
   const Lane below = lane_max0(barrier.floor - (1.0 + cos_theta));
@@ -77,7 +76,7 @@ ACINUS_INLINE FoldLaw barrier_law(const Barrier& barrier, Lane cos_theta, Lane s
   return {2.0 * fold * slope, 2.0 * slope * slope};
 }
 
-/// Of the hinge with its barrier.
+/// Derivatives of the energy of a hinge with its barrier, over k_b.
 /// @param c0, s0  cosine and sine of the rest angle
 ACINUS_INLINE FoldLaw hinge_law(Lane cos_theta, Lane sin_theta, double c0, double s0) {
   const FoldLaw barrier = barrier_law(kBending, cos_theta, sin_theta);
@@ -90,7 +89,7 @@ double touch_stiffness(const Params& p, const geometry::Topology& t) {
   return 0.5 * p.fold_repulsion * kTouchDepth * kTouchDepth * t.rest_area / t.n_triangle;
 }
 
-/// Both faces of an edge as the barrier against their collapse needs them.
+/// Both faces of an edge, as input of the barrier against their collapse.
 struct EdgeFaces {
   Lane stiffness;
   double stiffness_scale;

@@ -10,7 +10,7 @@ namespace {
 
 bool has_ring(const Params& p) { return p.ring && p.ring->excess > 0; }
 
-/// Middle of the nodes of a lane, weighted by their share of the rest surface.
+/// Mean of the nodes of a lane, weighted by their share of the rest surface.
 Vec3 center_of_lane(const GroupView& g, int lane) {
   Vec3 sum = Vec3::Zero();
   for (int i = 0; i < g.topology->n_node; ++i)
@@ -18,7 +18,7 @@ Vec3 center_of_lane(const GroupView& g, int lane) {
   return sum / g.topology->rest_area;
 }
 
-/// Computes the tension of each triangle over that at the poles, [n_triangle][lane].
+/// Computes the ratio of the tension of each triangle to that at the poles, [n_triangle][lane].
 void compute_ring_factors(const ContractileRing& c, const GroupView& g,
                           std::vector<double>& factor) {
   const geometry::Topology& t = *g.topology;
@@ -34,7 +34,7 @@ void compute_ring_factors(const ContractileRing& c, const GroupView& g,
   }
 }
 
-/// @param factor  [n_triangle][lane]; null: all 1
+/// Adds the forces of a tension. @param factor  [n_triangle][lane]; null: all 1
 ACINUS_KERNEL void tension_forces(double tension, const GroupView& g, const double* factor,
                                   double* force) {
   const Lane uniform = -tension * load(g.active);
@@ -52,10 +52,11 @@ ACINUS_KERNEL void tension_forces(double tension, const GroupView& g, const doub
   }
 }
 
-/// Unit vectors are stored as floats and may come out longer than 1 by this much; with so much less
-/// taken off along the edge the matrix has no negative eigenvalue.
+/// Excess length of unit vectors stored as floats; reduced by as much along the edge, the matrix
+/// has no negative eigenvalue.
 constexpr double kRounding = 1e-6;
 
+/// Adds the geometric stiffness.
 /// @param factor  [n_triangle][lane], of which an edge takes the mean of its two; null: all 1
 ACINUS_KERNEL void tension_springs(double across, const GroupView& g, const double* factor,
                                    float* element) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Membrane: resistance to change of every single triangle's area, for mesh quality.
+/// Membrane: resistance to changes of the area of every single triangle, for mesh quality.
 
 #include "dcm/group_view.hpp"
 #include "dcm/params.hpp"

@@ -11,9 +11,9 @@ namespace acinus::dcm {
 /// of the whole cell spread evenly over its rest surface.
 double medium_friction_per_area(const Params& p, double radius, double rest_area);
 
-/// Adds gamma A_i v_i on every node, with A_i the part of the node's area that feels the
-/// medium. [VanLiedekerke2020, Eq. (1), term 3, and the text below Eq. (2)] Empty lanes get 1 so
-/// that the matrix stays regular.
+/// Adds gamma A_i v_i on every node, with A_i the part of the node's area in contact with
+/// the medium. [VanLiedekerke2020, Eq. (1), term 3, and the text below Eq. (2)] Empty lanes get 1
+/// so that the matrix stays regular.
 /// @param medium_area  [n_node][lane] um^2
 void add_medium(const Params& p, const GroupView& g, const double* medium_area,
                 solve::System& system);

@@ -26,7 +26,7 @@ std::vector<int> find_link_ends(const geometry::Topology& cortex,
   return end;
 }
 
-/// A link at the present positions.
+/// Link at the present positions.
 struct PlacedLink {
   NucleusLink link;
   Address nucleus = 0, cortex = 0;
@@ -36,7 +36,7 @@ struct PlacedLink {
   double pull() const { return link.stiffness * (length - link.rest_length); }
 };
 
-/// f(link) for the links of one cell, in the order of the nodes of its nucleus.
+/// Calls f(link) for the links of one cell, in the order of the nodes of its nucleus.
 template <class F>
 void for_each_link(const State& s, std::span<const Params> params, const LaneData& lanes,
                    std::size_t lane, F f) {
@@ -74,7 +74,7 @@ void add_link(const PlacedLink& p, solve::System& s) {
   add_point(s.force.data(), p.nucleus, pull * p.direction);
   add_point(s.force.data(), p.cortex, -pull * p.direction);
   s.point_links.push_back(point_link(p, p.direction, p.link.stiffness, p.link.friction));
-  if (!(pull > 0)) return;  // a compressed link would turn away: indefinite, so it is left out
+  if (!(pull > 0)) return;  // compression across a link is indefinite, so it is left out
   const Vec3 across = p.direction.unitOrthogonal();
   for (const Vec3& n : {across, Vec3(p.direction.cross(across))})
     s.point_links.push_back(point_link(p, n, pull / p.length, 0));

@@ -7,8 +7,8 @@
 
 namespace acinus::dcm {
 
-/// Constants of the shell as those of a cortex. Its nodes rub on each other as those of the cortex
-/// do, since the solver knows one such friction per cell.
+/// Constants of the shell in the form of those of a cortex. Its nodal friction is that of the
+/// cortex, since the solver has one per cell.
 /// @param p  of the cell; @pre p.nucleus
 Params nucleus_shell(const Params& p);
 

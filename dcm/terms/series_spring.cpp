@@ -39,7 +39,7 @@ ACINUS_KERNEL void series_kernel(const Params& p, const GroupView& g, const Seri
 }  // namespace
 
 void add_series_springs(const Params& p, const GroupView& g, solve::System& s) {
-  // An explicit step knows the tension at its start only.
+  // An explicit step has the tension at its start only.
   const double step = s.stiffness_scale > 0 ? 1 / s.friction_scale : 0;
   series_kernel(p, g, series_step(p.spring_stiffness, p.series_friction, step), s);
 }

@@ -8,10 +8,10 @@
 namespace acinus::dcm {
 namespace {
 
-/// Of V0: where the pressure of a collapsing cell stops rising.
+/// Ratio to V0 below which the pressure of a collapsing cell no longer rises.
 constexpr double kSmallestVolume = 1e-3;
 
-/// gradient += dV/dx; returns V. Coordinates are taken from node 0 to keep digits.
+/// Adds dV/dx to `gradient` and writes V. Coordinates are taken from node 0 to keep digits.
 ACINUS_KERNEL void volume_kernel(const GroupView& g, double* gradient, double* volume) {
   const Lane3 origin = load3(g.position);
   Lane v = lane_of(0);
@@ -54,7 +54,7 @@ Lane compute_volumes(const GroupView& g) {
 double volume_energy(const Params& p, const GroupView& g, int lane) {
   const double v = compute_volumes(g)[lane];
   const double v0 = 4.0 / 3 * kPi * g.radius[lane] * g.radius[lane] * g.radius[lane];
-  // Below the bound the pressure stays what it is there, so the energy goes on in a straight line.
+  // Below the bound the pressure is constant, so the energy is linear in the volume.
   const double bound = std::max(v, kSmallestVolume * v0);
   const double energy = p.bulk_modulus * (bound * std::log(bound / v0) - bound + v0);
   return g.active[lane] * (energy + cytosol_pressure(p.bulk_modulus, bound, v0) * (bound - v));

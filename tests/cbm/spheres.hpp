@@ -35,7 +35,7 @@ struct Spheres {
     const ContactInput in{state, params, options, {r, strength, mother}, boundary, time, 0};
     refresh_pairs(in, work);
     solve::set_blocks(system, make_blocks(state));
-    find_overlaps(in, work);
+    compute_overlaps(in, work);
     contacts.all.clear();
     contacts.close(contact::ContactKind::kInterface);
     find_contacts(in, work, contacts, system.point_links);

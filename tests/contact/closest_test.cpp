@@ -145,7 +145,7 @@ TEST(FindClosest, WritesTheDistancesThatMayMatter) {
   EXPECT_LT(written, static_cast<int>(q.triangle.size()) / 2);
 }
 
-TEST(FindGaps, PointFromThePlaceToThePoint) {
+TEST(ComputeGaps, PointFromThePlaceToThePoint) {
   auto random = reference::stream(75);
   const Bumpy b(random);
   double worst_normal = 0;
@@ -153,7 +153,7 @@ TEST(FindGaps, PointFromThePlaceToThePoint) {
     for (const int n : {1, 9, PointBlock::kSize}) {
       Question q(b, n, random);
       find_closest(b.body, {q.triangle, q.bound}, 0.3 + kRounding, 1e150, q.block);
-      find_gaps(b.body, place, q.block);
+      compute_gaps(b.body, place, q.block);
       for (int i = 0; i < n; ++i) {
         const std::size_t k = i;
         const auto& corner = b.triangle[q.block.triangle[k]];
@@ -185,7 +185,7 @@ TEST(FindGaps, PointFromThePlaceToThePoint) {
         }
       }
     }
-  std::printf("find_gaps: worst difference of outward normals %.1e\n", worst_normal);
+  std::printf("compute_gaps: worst difference of outward normals %.1e\n", worst_normal);
   EXPECT_LT(worst_normal, 64 * kEps);
 }
 

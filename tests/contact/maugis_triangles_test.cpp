@@ -102,26 +102,27 @@ TEST(MaugisTriangles, SharedAreaOfAHexagonAndOfAShiftedTriangle) {
 
 TEST(MaugisTriangles, UnequalSpheresPlaneAndHollow) {
   const Corners low = equilateral(0.1, 0, true, 0), high = equilateral(0.1, 0, false, 0);
-  const auto meeting = [&](double k_a, double k_b) {
-    return meet_triangles(make_curved_triangle(low, k_a), make_curved_triangle(high, k_b), 1e3);
+  const auto contact_plane = [&](double k_a, double k_b) {
+    return compute_contact_plane(make_curved_triangle(low, k_a), make_curved_triangle(high, k_b),
+                                 1e3);
   };
   // Both triangles lie in one plane: the spheres overlap by both sagittas.
-  const TriangleMeeting unequal = meeting(0.1, 0.05);
+  const ContactPlane unequal = contact_plane(0.1, 0.05);
   EXPECT_NEAR(unequal.radius, 1 / 0.15, 1e-13);
   EXPECT_NEAR(unequal.overlap, sagitta(10, 0.1) + sagitta(20, 0.1), 1e-13);
   EXPECT_NEAR(unequal.point.norm(), 0.0, 1e-13);  // the radical plane is that of the common circle
   EXPECT_NEAR((unequal.normal - Vec3::UnitZ()).norm(), 0.0, 1e-12);
   // A plane counts as a sphere of 1 m: 1e-10 um of round-off.
-  const TriangleMeeting plane = meeting(0.1, 0);
+  const ContactPlane plane = contact_plane(0.1, 0);
   EXPECT_NEAR(plane.radius, 10, 1e-13);
   EXPECT_NEAR(plane.overlap, sagitta(10, 0.1), 4e-9);  // and a sagitta of 2e-9
   // A ball of 10 in a hollow of 20: 1/R^ = 0.05, as two equal spheres of 40.
-  const TriangleMeeting hollow = meeting(0.1, -0.05);
+  const ContactPlane hollow = contact_plane(0.1, -0.05);
   EXPECT_NEAR(hollow.radius, 20, 1e-12);
   EXPECT_NEAR(hollow.overlap, 2 * sagitta(40, 0.1), 1e-12);
   // Flat on both sides, and a hollow tighter than the ball: the largest radius.
-  EXPECT_EQ(meeting(0, 0).radius, 1e3);
-  EXPECT_EQ(meeting(0.05, -0.1).radius, 1e3);
+  EXPECT_EQ(contact_plane(0, 0).radius, 1e3);
+  EXPECT_EQ(contact_plane(0.05, -0.1).radius, 1e3);
 }
 
 TEST(MaugisTriangles, NothingWithoutSharedAreaOrOutOfReach) {
