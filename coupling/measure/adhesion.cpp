@@ -32,7 +32,7 @@ double area_of(const World& world, const Workspace& w, const contact::Contact& k
 
 }  // namespace
 
-Adhesion find_adhesion(const World& world, const Workspace& w) {
+Adhesion measure_adhesion(const World& world, const Workspace& w) {
   const dcm::ContactParams& options = world.params.dcm_contact;
   std::vector<std::size_t> first{0};
   for (const contact::SurfaceBody& b : w.dcm.body) first.push_back(first.back() + b.node.size());
@@ -58,8 +58,8 @@ bool any_adhesion(const World& world, const Workspace& w) {
                              [&](const contact::Contact& k) { return adheres(world, w, k); });
 }
 
-ContactTensions find_contact_tensions(const std::vector<double>& tension,
-                                      const Adhesion& adhesion) {
+ContactTensions compute_contact_tensions(const std::vector<double>& tension,
+                                         const Adhesion& adhesion) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   double sum[2] = {0, 0};
   int n[2] = {0, 0};

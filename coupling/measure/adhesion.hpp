@@ -18,7 +18,7 @@ struct Adhesion {
   /// [nodes of the deformable cells, body by body] 1: part of a point in contact.
   std::vector<std::uint8_t> node;
 };
-Adhesion find_adhesion(const World& world, const Workspace& work);  ///< @pre observe
+Adhesion measure_adhesion(const World& world, const Workspace& work);  ///< @pre observe
 
 /// Tensions of the surfaces in and out of contact, nN/um: means over nodes, and the least in
 /// contact; NaN where there is no such node.
@@ -26,7 +26,8 @@ struct ContactTensions {
   double outside = 0, contact = 0, least = 0;
 };
 /// @param tension  [nodes] nN/um, of measure_nodes
-ContactTensions find_contact_tensions(const std::vector<double>& tension, const Adhesion& adhesion);
+ContactTensions compute_contact_tensions(const std::vector<double>& tension,
+                                         const Adhesion& adhesion);
 
 /// Whether any two deformable cells adhere or press, at the contacts that were searched last.
 bool any_adhesion(const World& world, const Workspace& work);

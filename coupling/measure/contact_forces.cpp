@@ -111,7 +111,7 @@ void visit_contacts(const World& world, const Workspace& w,
   visit_fading(world, places, look);
 }
 
-Reactions find_reactions(const World& world, const Workspace& w) {
+Reactions compute_reactions(const World& world, const Workspace& w) {
   const contact::Boundary& boundary = world.params.boundary;
   Reactions r;
   const auto part_of = [&r](contact::Partner kind) -> std::vector<Reaction>& {

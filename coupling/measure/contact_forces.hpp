@@ -60,7 +60,7 @@ struct Reactions {
     return part[static_cast<std::size_t>(kind)];
   }
 };
-Reactions find_reactions(const World& world, const Workspace& work);
+Reactions compute_reactions(const World& world, const Workspace& work);
 
 /// Pairs of cells that exert a force on each other, a < b, ascending.   @pre observe
 std::vector<std::pair<std::size_t, std::size_t>> find_touching(const World& world,

@@ -14,6 +14,6 @@ struct NucleusLeak {
 };
 
 /// Shares no code with the contact search (geometry/audit_body.hpp).
-NucleusLeak find_nucleus_leak(const State& state);
+NucleusLeak measure_nucleus_leak(const State& state);
 
 }  // namespace acinus::coupling

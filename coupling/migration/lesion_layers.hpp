@@ -25,6 +25,6 @@ double distance_to_edge(const LayerCell& cell, std::span<const LayerCell> cells,
 int local_layer_of(const LayerCell& cell, std::span<const LayerCell> cells, const Vec3& axis_point);
 
 /// That of every cell. Cost: all pairs.
-std::vector<int> find_layers(std::span<const LayerCell> cells, const Vec3& axis_point);
+std::vector<int> compute_layers(std::span<const LayerCell> cells, const Vec3& axis_point);
 
 }  // namespace acinus::coupling

@@ -25,7 +25,7 @@ CellSet find_cells(const State& s, bool asleep) {
 }
 
 /// Gap, um, beyond which no two cells act on each other, with room for the growth of a step.
-double find_reach(const World& world) {
+double compute_reach(const World& world) {
   const State& s = world.state;
   const Params& p = world.params;
   const std::vector<double> shell = dcm::reference_radii(s.dcm, s.clock.time),
@@ -169,7 +169,7 @@ StepResult step_awake(World& world, Workspace& w, AwakePart& kept, CellSet awake
 }  // namespace
 
 CellSet find_ring(const World& world, const CellSet& cells) {
-  const double reach = find_reach(world);
+  const double reach = compute_reach(world);
   const CellSet near = find_neighbours(world, cells, reach);
   if (near.cbm.empty()) return near;
   const CellSet next = find_neighbours(world, {{}, near.cbm}, reach);

@@ -137,7 +137,7 @@ double largest_deformation(const World& world, const Workspace& w, std::size_t l
   return deformation;
 }
 
-Moves find_moves(const World& world, const Workspace& w) {
+Moves measure_moves(const World& world, const Workspace& w) {
   const State& s = world.state;
   Moves own_cells, all_cells;
   for_each_own_cell<Moves>(
@@ -245,7 +245,7 @@ Assessment reject(const State& s, std::string cause, std::size_t lane) {
 
 Assessment assess_moves(const World& world, double step, const Workspace& w) {
   const State& s = world.state;
-  const Moves m = find_moves(world, w);
+  const Moves m = measure_moves(world, w);
   Assessment a;
   if (m.infinite != Moves::kNone)
     a = reject(s, name_body(s, m.infinite) + ": its displacement is not finite", m.infinite);

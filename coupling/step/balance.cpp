@@ -12,7 +12,7 @@ namespace {
 
 /// Brings w.cg.residual to that of the step, and w.cg.product to what boundary and medium
 /// exert in it.
-void find_products(const World& world, Workspace& w) {
+void compute_products(const World& world, Workspace& w) {
   // Of A dx = b the residual is known; a displacement that iterations corrected needs the product.
   if (world.params.numerics.integrator == Integrator::kNewton) {
     w.op.apply(w.move, w.cg.product);
@@ -42,7 +42,7 @@ Vec3 vector_at(const std::array<double, kNumbers>& from, std::size_t at) {
   return {from[at], from[at + 1], from[at + 2]};
 }
 
-Vec3 find_center(const Workspace& w) {
+Vec3 compute_center(const Workspace& w) {
   const auto middle =
       sum_over_cells<4>(w, true, [&](std::size_t, Address first, int n_point, CellSums<4>& part) {
         for (int i = 0; i < n_point; ++i) {
@@ -64,8 +64,8 @@ Vec3 rest_on(const Workspace& w, Address a) {
 }  // namespace
 
 Balance measure_balance(const World& world, Workspace& w) {
-  find_products(world, w);
-  const Vec3 center = find_center(w);
+  compute_products(world, w);
+  const Vec3 center = compute_center(w);
   const auto t = sum_over_cells<kNumbers>(
                      w, false,
                      [&](std::size_t lane, Address first, int n_point, CellSums<kNumbers>& part) {

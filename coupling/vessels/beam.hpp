@@ -38,7 +38,7 @@ struct BeamLoad {
   Vec3 force = Vec3::Zero();                               ///< nN on end 1; the opposite on end 0
   std::array<Vec3, 2> moment{Vec3::Zero(), Vec3::Zero()};  ///< nN um
 };
-BeamLoad find_load(const Beam& beam, const BeamEnds& ends);
+BeamLoad compute_load(const Beam& beam, const BeamEnds& ends);
 
 /// The second derivative without what would make it indefinite.
 struct BeamStiffness {
@@ -48,7 +48,7 @@ struct BeamStiffness {
   std::array<Vec3, 2> place{}, turn{};
   double twist = 0, bend = 0;  ///< nN um, of the second rotation against the first: along, across
 };
-BeamStiffness find_stiffness(const Beam& beam, const BeamEnds& ends);
+BeamStiffness compute_stiffness(const Beam& beam, const BeamEnds& ends);
 
 /// A tube: outer radius and thickness of its wall, um; as thick as the radius it is solid.
 struct Tube {

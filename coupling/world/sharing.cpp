@@ -30,8 +30,8 @@ struct BlockCosts {
   std::vector<double> cost;
 };
 
-BlockCosts find_costs(const State& s, std::span<const solve::Block> blocks,
-                      const MeasuredCost& measured) {
+BlockCosts compute_costs(const State& s, std::span<const solve::Block> blocks,
+                         const MeasuredCost& measured) {
   BlockCosts out;
   std::size_t row = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -66,7 +66,7 @@ solve::Ownership share_blocks(const World& world, std::span<const solve::Block> 
   if (random) {
     o.owner = draw_owners(world, blocks.size());
   } else {
-    const BlockCosts costs = find_costs(world.state, blocks, cost);
+    const BlockCosts costs = compute_costs(world.state, blocks, cost);
     o.owner = partition(world.ranks, costs.place, costs.cost);
   }
   return o;

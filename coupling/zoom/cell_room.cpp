@@ -126,7 +126,7 @@ double reach_to_triangle(const Facing& f, const Vec3& direction, double farthest
   return t > 0 ? std::min(t, farthest) : farthest;
 }
 
-double find_reach(const Surroundings& around, const Vec3& direction) {
+double compute_reach(const Surroundings& around, const Vec3& direction) {
   double reach = dcm::reach_to_faces(direction, around.farthest, around.face);
   for (const Facing& f : around.facing)
     if (direction.dot(f.axis) >= f.least_cosine) reach = reach_to_triangle(f, direction, reach);
@@ -146,7 +146,7 @@ dcm::Room find_room(const World& world, std::size_t sphere, std::span<const doub
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
     if (s.dcm.active(l)) add_surface(s.dcm, l, around);
   add_boundary(world.params.boundary, around);
-  return {around.center, [around](const Vec3& d) { return find_reach(around, d); }};
+  return {around.center, [around](const Vec3& d) { return compute_reach(around, d); }};
 }
 
 }  // namespace acinus::coupling

@@ -59,8 +59,8 @@ void gather(const solve::Ownership& ownership, PairForces& forces) {
 
 }  // namespace
 
-PairForces find_pair_forces(const World& world, const Workspace& work,
-                            const std::set<std::int64_t>& cells) {
+PairForces compute_pair_forces(const World& world, const Workspace& work,
+                               const std::set<std::int64_t>& cells) {
   const std::vector<std::int64_t> lineage = list_lineages(world, work);
   PairForces forces;
   visit_contacts(world, work, [&](const ContactForce& f) {

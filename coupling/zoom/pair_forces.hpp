@@ -22,8 +22,8 @@ using PairForces = std::map<std::pair<std::int64_t, std::int64_t>, PairForce>;
 
 /// Contact forces of these cells with each other and with all others, without what fades already.
 /// @param cells  lineages      @pre observe
-PairForces find_pair_forces(const World& world, const Workspace& work,
-                            const std::set<std::int64_t>& cells);
+PairForces compute_pair_forces(const World& world, const Workspace& work,
+                               const std::set<std::int64_t>& cells);
 
 /// What has to act beside the new contacts for every pair to exert what it did: of two cells along
 /// the line between their centres, so without torque, and with what it adds to the pressure of

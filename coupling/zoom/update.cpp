@@ -211,7 +211,7 @@ ZoomReport update_zoom(World& world, Workspace& work) {
   std::set<std::int64_t> changing;
   for (const auto* list : {&all.promote, &all.demote})
     for (const Candidate& c : *list) changing.insert(c.lineage);
-  const PairForces before = find_pair_forces(world, work, changing);
+  const PairForces before = compute_pair_forces(world, work, changing);
   State old = s;
   change_models(world, all, pressure, report);
   const std::vector<std::int64_t> meshes = meshes_to_settle(s, changing, before);
@@ -229,7 +229,7 @@ ZoomReport update_zoom(World& world, Workspace& work) {
   s.clock.step = std::min(s.clock.step, kStepAfterChange);
   observe(world, work);
   keep_fading(old, s);
-  add_fading(world, before, find_pair_forces(world, work, changing), s.fading);
+  add_fading(world, before, compute_pair_forces(world, work, changing), s.fading);
   return report;
 }
 
