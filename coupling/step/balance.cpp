@@ -10,8 +10,8 @@ namespace acinus::coupling {
 
 namespace {
 
-/// Brings w.cg.residual to that of the step, and w.cg.product to what boundary and medium
-/// exert in it.
+/// Computes the residual of the step into w.cg.residual and the forces of boundary and medium into
+/// w.cg.product.
 void compute_products(const World& world, Workspace& w) {
   // Of A dx = b the residual is known; a displacement that iterations corrected needs the product.
   if (world.params.numerics.integrator == Integrator::kNewton) {
@@ -32,7 +32,7 @@ void compute_products(const World& world, Workspace& w) {
   });
 }
 
-/// Where the numbers of the sums stand.
+/// Offsets of the sums in the array of numbers.
 enum Number : std::size_t { kForce = 0, kTorque = 3, kRestTorque = 6, kSizes = 9, kNumbers = 12 };
 
 void add(const Vec3& v, std::size_t at, std::array<double, kNumbers>& to) {
@@ -55,7 +55,7 @@ Vec3 compute_center(const Workspace& w) {
   return Vec3(middle[0], middle[1], middle[2]) / std::max(middle[3], 1.0);
 }
 
-/// What pair friction and the pair forces' change exert on a point during the step.
+/// Force on a point from pair friction and from the change of pair forces during the step, nN.
 Vec3 rest_on(const Workspace& w, Address a) {
   const Vec3 product = load_point(w.rhs.data(), a) - load_point(w.cg.residual.data(), a);
   return load_point(w.cg.product.data(), a) - product;

@@ -11,8 +11,8 @@
 namespace acinus::coupling {
 namespace {
 
-/// True if the last step's velocity predicts the next displacement, and a better step is worth an
-/// assembly: that of spheres alone comes out the same without.
+/// True if the velocity of the last step predicts the next displacement and the predictor pays for
+/// its assembly. It does not for spheres alone, whose step is the same without it.
 bool is_steady(const World& world) {
   const State& s = world.state;
   if (!has_last_move(s) || s.dcm.n_lane() == 0) return false;
@@ -26,8 +26,9 @@ bool is_steady(const World& world) {
   return !crosses_grid(now - s.clock.last_step, now, m.grid);
 }
 
-/// Displacements with the velocity of the last step: of constrained cells, and of all others if
-/// wanted. The velocity of the others may end, so it is not stretched over a longer step.
+/// Displacements with the velocity of the last step: those of constrained cells, and on request all
+/// others. The others are not extrapolated over a longer step than the last, since their motion may
+/// end.
 void extrapolate_moves(const World& world, double step, bool all, const Workspace& w,
                        std::vector<double>& move) {
   const State& s = world.state;

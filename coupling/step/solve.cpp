@@ -11,11 +11,11 @@
 namespace acinus::coupling {
 namespace {
 
-/// A step whose solve failed is tried again with twice the iterations, so often at most.
+/// Largest number of retries of a failed solve, each with twice the iterations.
 constexpr int kMostDoublings = 5;
 constexpr int kMostIterations = std::numeric_limits<int>::max();
 
-/// Solves for the whole displacement from the guess in w.move.
+/// Solves for the whole displacement from the initial guess in w.move.
 /// @param from_point  the guess is the displacement to the point of linearisation
 Status solve_from_guess(const World& world, Workspace& w, bool from_point, Effort& effort) {
   for_each_own_number(
