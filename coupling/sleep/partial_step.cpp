@@ -13,7 +13,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// How far cells may be thought to go on with their present velocity, um.
+/// Largest extrapolated displacement of a cell with its present velocity, um.
 constexpr double kLongestWay = 0.25;
 
 CellSet find_cells(const State& s, bool asleep) {
@@ -24,7 +24,7 @@ CellSet find_cells(const State& s, bool asleep) {
   return cells;
 }
 
-/// Gap, um, beyond which no two cells act on each other, with room for the growth of a step.
+/// Gap, um, beyond which two cells cannot interact, with a reserve for growth during a step.
 double compute_reach(const World& world) {
   const State& s = world.state;
   const Params& p = world.params;
@@ -39,7 +39,7 @@ double compute_reach(const World& world) {
   return reach;
 }
 
-/// Members of both, each ascending.
+/// Union of two sets, ascending.
 CellSet unite(const CellSet& a, const CellSet& b) {
   CellSet all;
   std::ranges::set_union(a.dcm, b.dcm, std::back_inserter(all.dcm));
@@ -54,7 +54,7 @@ CellSet subtract(const CellSet& a, const CellSet& b) {
   return rest;
 }
 
-/// Leaders are chosen among all cells: a sleeper may stand before one awake.
+/// Chooses leaders among all cells, since a sleeper may be in front of an awake cell.
 void choose_leaders_of_all(World& world) {
   State& s = world.state;
   if (!(world.params.motility.leader_force > 0) || s.clock.phase != Phase::kRun) return;
@@ -62,12 +62,12 @@ void choose_leaders_of_all(World& world) {
                  cbm::radii_at(s.cbm, s.clock.time), s.leader, s.leader_interval);
 }
 
-/// Whether sleepers go on with their velocity: only linearly implicit steps know of it.
+/// True if sleepers keep their velocity; only linearly implicit steps support it.
 bool sleepers_move(const World& world) {
   return world.params.numerics.integrator == Integrator::kLinearlyImplicit;
 }
 
-/// Copies cells as they are now into a subworld of the same constants.
+/// Copies the present cells into a subworld of the same constants.
 void take_part(const World& world, CellSet moving, CellSet constrained, Subworld& part) {
   take_cells(world.state, std::move(moving), std::move(constrained), part);
   part.work.constraint.prescribed_velocity = sleepers_move(world);
@@ -85,7 +85,7 @@ void start_last_moves(State& s) {
   if (!has_last_move(s)) s.last_move.assign(count_unknowns(s), 0.0);
 }
 
-/// What a run tells about work done and left out counts wherever it happened.
+/// Adds the counters of a subworld step to those of the whole world.
 void move_counts(Workspace& from, Workspace& to) {
   to.dcm.lists.checked += std::exchange(from.dcm.lists.checked, 0);
   to.dcm.lists.made += std::exchange(from.dcm.lists.made, 0);
@@ -98,7 +98,7 @@ void move_counts(Workspace& from, Workspace& to) {
   to.cbm.beyond += std::exchange(from.cbm.beyond, 0);
 }
 
-/// Sleepers go on with their velocity.
+/// Moves sleepers with their velocity.
 void move_sleepers(State& s, double step) {
   if (!has_last_move(s)) return;
   const double ratio = step / s.clock.last_step;
@@ -113,7 +113,7 @@ void move_sleepers(State& s, double step) {
   });
 }
 
-/// Time passes: no cell is awake.
+/// Advances the clock alone; no cell is awake.
 StepResult pass_time(World& world, double limit) {
   Clock& clock = world.state.clock;
   StepResult result;
@@ -126,7 +126,7 @@ StepResult pass_time(World& world, double limit) {
   return result;
 }
 
-/// Slows cells down that would go too far in so long a time.
+/// Limits velocities to the largest extrapolated displacement over a duration.
 void limit_velocity(State& s, double duration) {
   for_each_cell(s, [&](const Cell& c) {
     double farthest2 = 0;

@@ -13,7 +13,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// Whether nothing makes the cell move by itself.
+/// True if no active process moves the cell.
 bool may_sleep(const State& s, const Cell& c) {
   const double t = s.clock.time;
   const Ramp& volume = volume_of(s, c);
@@ -22,7 +22,7 @@ bool may_sleep(const State& s, const Cell& c) {
   return c.deformable ? s.dcm.birth[c.at].is_forgotten(t) : t >= s.cbm.strength[c.at].end;
 }
 
-/// Loads of all cells, without what only trembles: sleepers have no random motility.
+/// Loads of all cells without random motility, which sleepers do not have.
 void observe_rest(World& world, Workspace& work) {
   bool& random = world.params.motility.random;
   const bool trembles = std::exchange(random, false);

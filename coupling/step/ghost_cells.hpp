@@ -17,7 +17,7 @@ void mark_ghost_cells(const World& world, Workspace& work);
 /// @pre the work is shared: the ownership is not whole
 int owner_of_lane(const Workspace& work, std::size_t lane);
 
-/// Receives the touching shares of the points of ghost bodies in contact with own cells.
+/// Exchanges the touching shares of the points of ghost bodies in contact with own cells.
 /// @pre all contacts of deformable cells are found
 void exchange_shares(Workspace& work);
 
@@ -26,10 +26,11 @@ struct SphereExchange {
   ExchangePlan plan;
   std::vector<int> send, receive;
 };
-/// @pre near pairs of spheres, and of spheres with deformable cells, are listed
+/// Derives the plan from the neighbour lists.
+/// @pre neighbour lists of spheres and of the interface are current
 SphereExchange plan_sphere_exchange(const Workspace& work);
 
-/// Receives the values of ghost spheres next to own cells.
+/// Exchanges the values of ghost spheres next to own cells.
 /// @param value  [n_cell], or empty
 void exchange_values(const Workspace& work, const SphereExchange& spheres,
                      std::vector<double>& value);

@@ -6,12 +6,12 @@
 namespace acinus::coupling {
 namespace {
 
-/// A beam in its present place.
+/// Beam in its present configuration.
 struct Placed {
   double length;
   Vec3 chord;  ///< unit
   std::array<Vec3, 2> axis;
-  Vec3 sum, difference;  ///< of the axes
+  Vec3 sum, difference;  ///< of the axis directions
 };
 
 Placed place(const BeamEnds& e) {

@@ -8,13 +8,13 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr int kLane = 0;  ///< where the tree stands in its block
+constexpr int kLane = 0;  ///< lane of the tree in its block
 
 double mean_radius(const geometry::Network& n, std::size_t segment) {
   return 0.5 * (n.radius[segment][0] + n.radius[segment][1]);
 }
 
-/// Numbers of the points of a segment: its two nodes and their rotations.
+/// Point numbers of a segment: two nodes, then their rotations.
 std::array<int, 4> points_of(const VesselTree& tree, std::size_t segment) {
   const auto [a, b] = tree.rest.segment[segment];
   const int n = static_cast<int>(tree.n_node());
@@ -31,7 +31,7 @@ BeamEnds ends_of(const VesselTree& tree, const TreeState& state, std::size_t seg
   return ends;
 }
 
-/// How many segments every node has.
+/// Number of segments at every node.
 std::vector<int> count_segments(const geometry::Network& n) {
   std::vector<int> degree(n.node.size(), 0);
   for (const auto& segment : n.segment)
@@ -53,7 +53,7 @@ void put(const Vec3& v, std::size_t number, float* element) {
     element[(number + k) * kLanes + kLane] = static_cast<float>(v[static_cast<int>(k)]);
 }
 
-/// A spring of the block: `along` on the direction u, `across` on all others.
+/// Spring of the block: `along` in the direction u, `across` in all others.
 void put_spring(const Vec3& u, double along, double across, float* element) {
   put(u, 0, element);
   element[3 * kLanes + kLane] = static_cast<float>(along - across);

@@ -8,7 +8,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// A value per cell of another state, or a default where that state has none.
+/// Value of a cell in another state, or a default where that state has none.
 template <class T>
 T value_of(const std::vector<T>& values, std::size_t index, T otherwise) {
   return index < values.size() ? values[index] : otherwise;

@@ -9,12 +9,12 @@
 namespace acinus::coupling {
 namespace {
 
-/// Blocks a process needs at least for sharing to be worth anything.
+/// Least number of blocks per process for which sharing pays.
 constexpr std::size_t kLeastBlocks = 2;
-/// A guess before anything is measured: a point costs as much whatever it belongs to, s per step.
+/// Initial estimate of the cost of a point, s per step, the same for all bodies.
 constexpr double kPointCost = 2e-6;
 
-/// Every block to anyone.
+/// Assigns every block to a random process.
 std::vector<int> draw_owners(const World& world, std::size_t n_block) {
   std::vector<int> owner;
   const auto seed = static_cast<std::uint64_t>(world.state.next_lineage);
@@ -24,7 +24,7 @@ std::vector<int> draw_owners(const World& world, std::size_t n_block) {
   return owner;
 }
 
-/// Where the blocks are, by the first points of their cells, and what they cost.
+/// Positions of blocks, by the first points of their cells, and their costs.
 struct BlockCosts {
   std::vector<Vec3> place;
   std::vector<double> cost;
