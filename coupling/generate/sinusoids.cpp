@@ -50,7 +50,7 @@ void add_branch_points(const LobuleParameters& p, const Domain& domain, const Un
   }
 }
 
-/// Returns the vein of each node, -1 for branch points.
+/// Vein of each node, -1 for branch points.
 std::vector<int> add_wall_nodes(const Domain& domain, std::vector<Vec3>& node) {
   std::vector<int> vein_of(node.size(), -1);
   for (std::size_t v = 0; v < domain.vein.size(); ++v) {
@@ -66,7 +66,7 @@ std::vector<int> add_wall_nodes(const Domain& domain, std::vector<Vec3>& node) {
   return vein_of;
 }
 
-/// Nearest horizontal distance of a segment to a vein's axis: the segment seen from above.
+/// Smallest horizontal distance of a segment from the axis of a vein, um.
 double axis_distance(const Vein& vein, Vec3 a, Vec3 b) {
   a.z() = b.z() = 0;
   return distance_to_segment(vein.axis, a, b);
@@ -103,7 +103,7 @@ std::vector<Edge> delaunay_edges(const std::vector<Vec3>& node, const std::vecto
   return edge;
 }
 
-/// Picks edges and keeps the books: degrees, connected parts, length.
+/// Selection of edges, with degrees, connected parts and total length.
 class Builder {
  public:
   Builder(const std::vector<int>& vein_of, Sinusoids& out)
@@ -120,8 +120,8 @@ class Builder {
   bool joined(const Edge& e) { return part_.find(e.a) == part_.find(e.b); }
   bool taken(const Edge& e) const { return taken_.contains({e.a, e.b}); }
   bool at_wall(const Edge& e) const { return vein_of_[e.a] >= 0 || vein_of_[e.b] >= 0; }
-  /// A wall node takes one sinusoid; others fewer than `limit`.
-  bool room(const Edge& e, int limit) const {
+  /// True if both nodes may take another sinusoid: wall nodes one, others fewer than `limit`.
+  bool has_free_degree(const Edge& e, int limit) const {
     const auto free = [&](int i) { return degree_[i] < (vein_of_[i] >= 0 ? 1 : limit); };
     return free(e.a) && free(e.b);
   }
@@ -156,9 +156,9 @@ Sinusoids make_sinusoids(const LobuleParameters& p, const Domain& domain, const 
   Builder builder(vein_of, out);
   std::vector<Edge> rest;
   for (const Edge& e : edge)
-    if (builder.at_wall(e) && builder.room(e, kMaxDegree)) builder.take(e);
+    if (builder.at_wall(e) && builder.has_free_degree(e, kMaxDegree)) builder.take(e);
   for (const Edge& e : edge)
-    if (!builder.joined(e) && builder.room(e, kMaxDegree)) builder.take(e);
+    if (!builder.joined(e) && builder.has_free_degree(e, kMaxDegree)) builder.take(e);
   for (const Edge& e : edge) {
     if (!builder.joined(e))  // a part that only a crowded node or a vein can join
       builder.take(e);
@@ -170,7 +170,7 @@ Sinusoids make_sinusoids(const LobuleParameters& p, const Domain& domain, const 
     for (const Edge& e : rest) {
       if (out.length >= out.target_length) return out;
       if (builder.taken(e)) continue;
-      if (builder.room(e, limit))
+      if (builder.has_free_degree(e, limit))
         builder.take(e);
       else
         left.push_back(e);

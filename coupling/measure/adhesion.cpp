@@ -9,7 +9,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// Range of the cohesive potential of the cell that probes, um.
+/// Range of the cohesive potential of the probing cell, um.
 double range_of(const World& world, const Workspace& w, int body) {
   const std::size_t b = body;
   return world.params.dcm_contact.range_factor * w.dcm.body[b].topology->mean_rest_length *
@@ -21,7 +21,7 @@ bool adheres(const World& world, const Workspace& w, const contact::Contact& k) 
   return k.partner == contact::Partner::kSurface && !k.is_fold() && k.gap < range_of(world, w, k.a);
 }
 
-/// Area of a contact that adheres, um^2.
+/// Adhering area of a contact, um^2.
 double area_of(const World& world, const Workspace& w, const contact::Contact& k) {
   const dcm::ContactParams& options = world.params.dcm_contact;
   if (dcm::is_between_triangles(options, k)) return k.touching;

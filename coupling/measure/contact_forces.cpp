@@ -14,7 +14,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// Where cells are: surfaces first, then spheres, as measure_cells lists them.
+/// Centres of cells: surfaces first, then spheres, in the order of measure_cells.
 struct Places {
   const World& world;
   const Workspace& w;
@@ -32,7 +32,7 @@ struct Places {
     return contact::point_position(body, dcm::stencil_of(world.params.dcm_contact, body, k));
   }
 
-  /// Spheres meet in the middle of their overlap; with an obstacle it is the obstacle's surface.
+  /// Point of contact: the middle of the overlap of two spheres, the surface of an obstacle.
   void set_arms_of_sphere(const contact::Contact& k, ContactForce& f) const {
     const std::vector<double>& radius = w.cbm_radius;
     const bool pair = k.partner == contact::Partner::kSphere;

@@ -15,8 +15,8 @@ namespace acinus::coupling {
 /// was rejected.
 Vec3 mean_random(std::uint64_t seed, std::int64_t lineage, double grid, double time, double step);
 
-/// Active forces on all cells at a state. Random force of a component: Gamma_med sqrt(2 D / grid)
-/// xi, with Gamma_med the cell's present friction with the medium alone.
+/// Computes active forces on all cells. Random force per component: Gamma_med sqrt(2 D / grid) xi,
+/// with the present friction Gamma_med of the cell with the medium.
 /// [VanLiedekerke2020, Eq. (1) term 9 and Eq. (19), with the noise of docs/decisions/0004.md]
 void compute_cell_forces(const World& world, const State& at, double step,
                          const MediumFriction& medium, std::span<const std::uint8_t> leader,

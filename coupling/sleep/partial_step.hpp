@@ -30,8 +30,8 @@ struct AwakePart {
 StepResult advance(World& world, Workspace& work, AwakePart& awake, double limit);
 
 /// Sets the velocity of sleepers, kept as their last move, for the next `duration`, s: that of one
-/// step of this length without motility, with their neighbours at rest. Neighbours with a
-/// prescribed velocity would leave both out of balance and their velocity would last.
+/// step of this length without motility, with their neighbours at rest. (With awake neighbours at a
+/// prescribed velocity no step would balance both together, and their velocity would persist.)
 /// @return not ok if the step failed or the process was asked to stop; nothing has changed then
 [[nodiscard]] LoopResult set_sleepers_velocity(World& world, Workspace& work, double duration);
 

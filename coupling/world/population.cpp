@@ -14,7 +14,8 @@ T value_of(const std::vector<T>& values, std::size_t index, T otherwise) {
   return index < values.size() ? values[index] : otherwise;
 }
 
-/// @param center_of  place of a member
+/// Sorts members along a space-filling curve.
+/// @param center_of  position of a member
 template <class CenterOf>
 void sort_along_curve(std::vector<SelectedCell<State>>& members, const CenterOf& center_of) {
   constexpr std::size_t kWorthThreads = 200;

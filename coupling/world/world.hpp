@@ -158,7 +158,7 @@ inline const geometry::Network& vessels_at_rest(const Params& p) {
   return p.tree.exists() ? p.tree.rest : p.boundary.vessels.network;
 }
 
-/// Numbers of all unknowns.
+/// Number of coordinates of all unknowns.
 inline std::size_t count_unknowns(const State& s) {
   return s.dcm.position.size() + s.cbm.position.size() + s.tree.n_row() * kPointStride;
 }
