@@ -19,8 +19,8 @@ inline double distance_to_segment(const Vec3& point, const Vec3& a, const Vec3& 
   return (point - a - t * along).norm();
 }
 
-/// Points and segments sorted into cubes of side `reach`. Each item is stored in every cube it may
-/// be within `reach` of, so a query looks into one cube.
+/// Points and segments sorted into cubes of side `reach`. Each item is stored in every cube within
+/// `reach` of it, so a query reads one cube.
 class Buckets {
  public:
   explicit Buckets(double reach) : reach_(reach) {}

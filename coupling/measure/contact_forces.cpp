@@ -51,7 +51,7 @@ struct Places {
 };
 
 void visit_fading(const World& world, const Places& places,
-                  const std::function<void(const ContactForce&)>& look) {
+                  const std::function<void(const ContactForce&)>& visit) {
   const State& s = world.state;
   if (s.fading.empty()) return;
   std::unordered_map<std::int64_t, std::size_t> number;
@@ -77,14 +77,14 @@ void visit_fading(const World& world, const Places& places,
       f.arm_b = f.arm_a + apart;
     }
     f.fades = true;
-    look(f);
+    visit(f);
   }
 }
 
 }  // namespace
 
 void visit_contacts(const World& world, const Workspace& w,
-                    const std::function<void(const ContactForce&)>& look) {
+                    const std::function<void(const ContactForce&)>& visit) {
   const Places places(world, w);
   const std::size_t n_body = w.dcm.body.size();
   for (const contact::Contact& k : w.contacts.all) {
@@ -106,9 +106,9 @@ void visit_contacts(const World& world, const Workspace& w,
       places.set_arms_of_sphere(k, f);
     else
       places.set_arms_of_surface(k, f);
-    look(f);
+    visit(f);
   }
-  visit_fading(world, places, look);
+  visit_fading(world, places, visit);
 }
 
 Reactions compute_reactions(const World& world, const Workspace& w) {

@@ -19,7 +19,8 @@
 namespace acinus::coupling {
 namespace {
 
-/// Time, s, over which reference values do not change to rounding.
+/// Step length, s, of an assembly for measures: reference values do not change over it, to
+/// rounding.
 constexpr double kNow = 1e-9;
 /// Age, s, after which a cell counts as settled.
 constexpr double kNewborn = 600;

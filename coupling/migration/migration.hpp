@@ -11,8 +11,8 @@
 namespace acinus::coupling {
 
 /// Mean of the unit random force over [time, time + step]. The force is constant on each interval
-/// of its time grid, so any sequence of steps over the same time gives the same impulse, whatever
-/// was rejected.
+/// of its time grid, so any sequence of steps over the same time gives the same impulse, also after
+/// rejected attempts.
 Vec3 mean_random(std::uint64_t seed, std::int64_t lineage, double grid, double time, double step);
 
 /// Computes active forces on all cells. Random force per component: Gamma_med sqrt(2 D / grid) xi,
