@@ -18,8 +18,7 @@ struct CellSurface {
 };
 
 struct TakenShapes {
-  int laid = 0,
-      inflated = 0;  ///< cells whose mesh was projected onto the surface, or inflated inside it
+  int laid = 0, inflated = 0;  ///< cells by kind of fit: projected onto it, inflated inside it
   std::vector<std::pair<std::int64_t, std::string>> round;  ///< cells left as balls: lineage, cause
   double worst_quality = 1;                                 ///< of all triangles
 };

@@ -13,8 +13,7 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr double kDoubledShare =
-    1 - 1e-9;  ///< share of twice the birth volume at division, for rounding
+constexpr double kDoubledShare = 1 - 1e-9;  ///< of twice the birth volume at division
 
 bool has_doubled(const State& s, const Cell& c) {
   return volume_of(s, c).at(s.clock.time) >= 2 * s.cycle[c.index].birth_volume * kDoubledShare;

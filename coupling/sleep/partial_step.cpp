@@ -14,7 +14,7 @@ namespace acinus::coupling {
 namespace {
 
 /// Largest extrapolated displacement of a cell with its present velocity, um.
-constexpr double kLongestWay = 0.25;
+constexpr double kLongestExtrapolation = 0.25;
 
 CellSet find_cells(const State& s, bool asleep) {
   CellSet cells;
@@ -134,9 +134,10 @@ void limit_velocity(State& s, double duration) {
       farthest2 = std::max(farthest2, load_point(s.last_move.data(), a).squaredNorm());
     });
     const double way = duration / s.clock.last_step * std::sqrt(farthest2);
-    if (!(way > kLongestWay)) return;
+    if (!(way > kLongestExtrapolation)) return;
     for_each_point(s, c, [&](Address a) {
-      store_point(s.last_move.data(), a, kLongestWay / way * load_point(s.last_move.data(), a));
+      store_point(s.last_move.data(), a,
+                  kLongestExtrapolation / way * load_point(s.last_move.data(), a));
     });
   });
 }

@@ -8,10 +8,9 @@ namespace acinus::coupling {
 
 /// Terms of the assembled system.
 struct SystemTerms {
-  bool interface = true;  ///< contacts between the two models; false only in tests
-  bool stiffness = true;  ///< false: friction only, for explicit methods
-  bool end_values =
-      true;  ///< references and moving walls at the end of the step, else at its start
+  bool interface = true;   ///< contacts between the two models; false only in tests
+  bool stiffness = true;   ///< false: friction only, for explicit methods
+  bool end_values = true;  ///< references and walls at the end of the step, else its start
 };
 
 /// Assembles forces, friction and stiffness of cells, contacts, apparatus, vessels and

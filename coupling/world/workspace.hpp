@@ -35,11 +35,10 @@ struct Workspace {
   solve::System system;
   /// Boundary of the step if vessels move; written by: refresh_references
   std::optional<contact::Boundary> boundary;
-  std::size_t tree_block = 0;  ///< block of the vessel tree; written by: size_workspace
-  std::size_t dcm_lanes = 0;   ///< written by: mark_ghost_cells
-  MeasuredCost cost;           ///< written by: balance_shares
-  std::size_t bodies_sent =
-      0;  ///< own bodies whose shares others need; written by: exchange_shares
+  std::size_t tree_block = 0;   ///< block of the vessel tree; written by: size_workspace
+  std::size_t dcm_lanes = 0;    ///< written by: mark_ghost_cells
+  MeasuredCost cost;            ///< written by: balance_shares
+  std::size_t bodies_sent = 0;  ///< with shares others need; written by: exchange_shares
   solve::Operator op;
   solve::CgWorkspace cg;
   solve::RigidWorkspace rigid;
@@ -52,21 +51,20 @@ struct Workspace {
   dcm::LaneData lanes;               ///< written by: refresh_references
   std::vector<double> cbm_radius;    ///< written by: refresh_references
   std::vector<double> cbm_strength;  ///< [cbm cells], empty: all 1; written by: refresh_references
-  std::vector<std::int64_t>
-      cbm_mother;  ///< lineage; empty with cbm_strength; written by: refresh_references
-  std::vector<dcm::Params> dcm_params;  ///< of the step; written by: add_loads
-  std::vector<double> medium_area;      ///< [dcm rows][lane]; written by: refresh_migration
-  MediumFriction medium_friction;       ///< written by: refresh_migration
-  CellForces forces;                    ///< written by: refresh_migration
-  std::vector<double> position;         ///< [n_row][3][lane]; written by: add_loads
-  std::vector<std::uint8_t> active;     ///< written by: size_workspace
-  Constraint constraint;                ///< set by the owner
-  std::vector<double> rhs;              ///< written by: solve_step
-  std::vector<double> move;             ///< displacement of the step; written by: solve_step
-  std::vector<double> rest_of_move;     ///< scratch of solve_step
-  LinearisationPoint linearisation;     ///< written by: choose_linearisation_point
-  int failed_solves = 0;                ///< attempts at this step; written by: take_step
-  std::vector<std::uint8_t> leader;     ///< written by: refresh_migration
+  std::vector<std::int64_t> cbm_mother;  ///< lineage; as cbm_strength
+  std::vector<dcm::Params> dcm_params;   ///< of the step; written by: add_loads
+  std::vector<double> medium_area;       ///< [dcm rows][lane]; written by: refresh_migration
+  MediumFriction medium_friction;        ///< written by: refresh_migration
+  CellForces forces;                     ///< written by: refresh_migration
+  std::vector<double> position;          ///< [n_row][3][lane]; written by: add_loads
+  std::vector<std::uint8_t> active;      ///< written by: size_workspace
+  Constraint constraint;                 ///< set by the owner
+  std::vector<double> rhs;               ///< written by: solve_step
+  std::vector<double> move;              ///< displacement of the step; written by: solve_step
+  std::vector<double> rest_of_move;      ///< scratch of solve_step
+  LinearisationPoint linearisation;      ///< written by: choose_linearisation_point
+  int failed_solves = 0;                 ///< of this step; written by: take_step, assess_step
+  std::vector<std::uint8_t> leader;      ///< written by: refresh_migration
   std::int64_t leader_interval = -1;
   Timings timings;
   std::uint64_t sized = 0;  ///< number of calls of size_workspace: changes with the set of cells

@@ -111,13 +111,13 @@ Switches find_candidates(const World& world, const std::vector<double>& pressure
   });
   const auto at_once = static_cast<std::size_t>(zoom.at_once);
   keep_first(found.demote, at_once, std::greater{});
-  std::size_t free = at_once - found.demote.size();
+  std::size_t allowed = at_once - found.demote.size();
   if (zoom.most_deformable > 0) {
     const auto most = static_cast<std::size_t>(zoom.most_deformable);
     const std::size_t left = n_deformable - found.demote.size();
-    free = std::min(free, most > left ? most - left : 0);
+    allowed = std::min(allowed, most > left ? most - left : 0);
   }
-  keep_first(found.promote, free, std::less{});
+  keep_first(found.promote, allowed, std::less{});
   return found;
 }
 
