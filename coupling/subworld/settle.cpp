@@ -8,7 +8,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// Largest gap, um, of a neighbour in the subworld.
+/// Largest gap, um, of neighbours included in the subworld.
 constexpr double kSettleReach = 0.5;
 /// Settling time of new cells, in steps of the whole world: long enough for stiff modes to relax,
 /// negligible against the flow of tissue.
