@@ -51,7 +51,7 @@ double pressure_drift(World& world, Workspace& work) {
 void enter(Clock& c, Phase phase) {
   c.phase = phase;
   c.phase_start = c.time;
-  c.last_step = 0;  // forces jump: the last step says nothing about the next
+  c.last_step = 0;  // forces jump: the last step predicts nothing
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ class Apparatus {
   /// Apparatus without the devices that displace whole cells.
   void remove_drives();
 
-  // The same as of a single device, for all of them; see Device.
+  // The actions of Device, for all devices.
   double next_change(double time) const;
   void set_params(double time, std::span<dcm::Params> types) const;
   void add_cell_forces(double time, const ForcedCells& cells) const;

@@ -22,7 +22,7 @@ constexpr double kLongestExtra = 45;    // um, edges beyond the spanning tree
 constexpr int kMaxDegree = 4;           // sinusoids at a branch point
 constexpr double kRadialBias = 0.6;     // extra cost of an edge across the flow
 constexpr double kDiskFraction = 0.78;  // disk distance in units of density^(-1/3)
-constexpr int kMaxMisses = 100000;      // darts in a row that found no room: the domain is full
+constexpr int kMaxMisses = 100000;      // rejected darts in a row that end the sampling
 
 struct Edge {
   int a, b;
@@ -92,8 +92,7 @@ std::vector<Edge> delaunay_edges(const std::vector<Vec3>& node, const std::vecto
     const double length = along.norm();
     const double cosine = std::abs(along.dot(radial)) / (length * radial.norm());
     bool through = false;
-    for (const Vein& vein :
-         domain.vein)  // wall nodes stand on the wall: leave them room for round-off
+    for (const Vein& vein : domain.vein)  // wall nodes are on the wall: allow for round-off
       through = through || axis_distance(vein, node[a], node[b]) < (1 - 1e-6) * vein.radius;
     edge.push_back({a, b, length, length * (1 + kRadialBias * (1 - cosine)), through});
   }

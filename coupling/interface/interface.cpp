@@ -107,7 +107,7 @@ Compliance compute_compliance(double repulsion, const SphereSurface& sphere, dou
   const double per_modulus = 4 / (3 * kPi * sphere.radius * (1 - sphere.poisson * sphere.poisson) *
                                   std::sqrt(std::clamp(d, kLeastDepth, kMostDepth)));
   const double winkler = per_modulus * modulus.value, together = 1 / (1 / repulsion + 1 / winkler);
-  // That the contact widens at the same time softens it; the matrix may be too stiff.
+  // The softening by a growing contact area is left out; the matrix may be too stiff.
   const double yields = together / winkler;
   return {together, yields * yields * per_modulus * modulus.slope / sphere.radius};
 }

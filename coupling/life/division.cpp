@@ -17,7 +17,7 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr int kMostPlanes = 8;
+constexpr int kMostPlanes = 8;  ///< planes tried at most
 /// Least triangle quality of an accepted daughter mesh.
 constexpr double kLeastBirthQuality = 0.1;
 /// Tilt of later planes: share of a random direction added to the axis.

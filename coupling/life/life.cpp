@@ -205,7 +205,7 @@ LifeReport turn_over(World& world, Workspace& work) {
     type[c.index] = cycle_of(world.params, s, c).death.type;
     begin_lysis(world, c, report);
   }
-  // In the order of their numbers: which cell is born when must not depend on how cells are stored.
+  // In order of lineage: births must not depend on storage order.
   std::ranges::sort(plan.divide, {}, [&](const Cell& c) { return lineage_of(s, c); });
   std::vector<Cell> shells;
   for (const Cell& c : plan.divide) {

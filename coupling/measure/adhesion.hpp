@@ -25,6 +25,7 @@ Adhesion measure_adhesion(const World& world, const Workspace& work);  ///< @pre
 struct ContactTensions {
   double outside = 0, contact = 0, least = 0;
 };
+/// Computes tensions in and out of contact.
 /// @param tension  [nodes] nN/um, of measure_nodes
 ContactTensions compute_contact_tensions(const std::vector<double>& tension,
                                          const Adhesion& adhesion);

@@ -66,7 +66,7 @@ CellMeasure measure_surface(const World& world, const Workspace& w, std::size_t 
   m.cytosol_pressure = dcm::cytosol_pressure(world.params.dcm[m.type].bulk_modulus, m.volume,
                                              sphere_volume(m.radius));
   m.migration_force = w.forces.dcm[lane].norm();
-  // Points stand for shares of the reference surface; what is measured is the present one.
+  // Points have shares of the reference surface, scaled here to the present one.
   const std::vector<double>& share = w.dcm.share[body];
   double touching = 0, whole = 0;
   for (std::size_t p = 0; p < share.size(); ++p) {

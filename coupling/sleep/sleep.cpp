@@ -59,7 +59,7 @@ std::vector<double> unbalanced_traction(const World& world, const Workspace& w) 
       add(*g.nucleus.topology, g.topology->n_node, g.nucleus.size * g.nucleus.size * r2);
     traction[c.index] = std::sqrt(sum / (g.topology->rest_area * r2));
   });
-  // Those that are not own are 0.
+  // Cells of other processes are 0.
   w.system.ownership.ranks.max(traction);
   return traction;
 }

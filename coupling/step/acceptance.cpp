@@ -111,7 +111,7 @@ struct Moves {
     largest = std::max(largest, o.largest);
     infinite = std::min(infinite, o.infinite);
     turned = std::min(turned, o.turned);
-    // Of all cells that move too far, the one that does so most.
+    // The cell with the largest excess among those that move too far.
     if (o.excess > excess || (o.excess == excess && o.excess > 1 && o.too_far < too_far)) {
       excess = o.excess;
       too_far = o.too_far;

@@ -13,7 +13,8 @@ namespace {
 /// Computes the residual of the step into w.cg.residual and the forces of boundary and medium into
 /// w.cg.product.
 void compute_products(const World& world, Workspace& w) {
-  // Of A dx = b the residual is known; a displacement that iterations corrected needs the product.
+  // The solve of A dx = b leaves its residual; a displacement corrected by Newton needs the
+  // product.
   if (world.params.numerics.integrator == Integrator::kNewton) {
     w.op.apply(w.move, w.cg.product);
     for_each_own_number(w.system,
@@ -23,7 +24,7 @@ void compute_products(const World& world, Workspace& w) {
     w.op.apply_external(w.move, w.cg.product);
     return;
   }
-  // The matrix is that of the rest of the way.
+  // The matrix acts on the displacement from the point of linearisation.
   for_each_own_number(w.system, [&](std::size_t k) { w.move[k] -= w.linearisation.move[k]; });
   w.op.apply_external(w.move, w.cg.product);
   for_each_own_number(w.system, [&](std::size_t k) {

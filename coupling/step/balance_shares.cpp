@@ -42,7 +42,7 @@ void balance_shares(const World& world, Workspace& w) {
   cost.busy += busy;
   cost.steps = 0;
   if (first) return;  // with reading and placing
-  // What each process was busy for goes to its blocks in proportion to their work.
+  // The busy time of each process is distributed over its blocks by their work.
   const std::vector<double> work = count_work(w.system);
   double own_work = 0;
   for (const auto& [begin, end] : w.system.own)

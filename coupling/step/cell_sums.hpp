@@ -16,7 +16,7 @@ namespace acinus::coupling {
 /// request.
 template <class Part, class F, class Put>
 void for_each_own_cell(const Workspace& w, bool unconstrained_only, const F& f, const Put& put) {
-  // Of this thread, so that their memory stays; other threads of the loop write to them.
+  // Kept per calling thread to reuse memory; other threads of the loop write to the parts.
   thread_local std::vector<Part> kept_part;
   std::vector<Part>& part = kept_part;
   const auto& block = w.system.block;

@@ -100,7 +100,7 @@ StepResult take_step(World& world, Workspace& w, double limit) {
       gather_touching(w);
       commit(step, effort, world, w);
       s.clock.rejected += result.rejections;
-      // A step cut short by an event says little about the next one's length.
+      // A step shortened by an event predicts little about the length of the next.
       s.clock.step = step < wanted ? wanted : next_step(n, step, a.error);
       result.accepted = true;
       result.step = step;

@@ -11,8 +11,8 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr int kMaxNewton = 40;
-constexpr int kMaxHalvings = 6;
+constexpr int kMaxNewton = 40;   ///< iterations
+constexpr int kMaxHalvings = 6;  ///< of one correction in the line search
 /// Convergence tolerance: last correction over the step's error tolerance.
 constexpr double kNewtonShare = 0.1;
 /// Correction, um, below which the iteration may stop at a kink: switches of closest features make

@@ -9,7 +9,7 @@ namespace {
 
 /// Least extent of the available volume in any direction, over the radius.
 constexpr double kLeastReach = 0.2;
-constexpr int kTracingSteps = 60;
+constexpr int kTracingSteps = 60;     ///< largest number of steps along a ray
 constexpr double kTracingGap = 1e-3;  ///< um, gap to a surface that ends a ray
 
 /// Triangle of a neighbour's surface that faces the centre.

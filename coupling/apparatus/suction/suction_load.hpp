@@ -11,8 +11,8 @@ namespace acinus::coupling {
 struct SuctionLoad {
   Vec3 mouth = Vec3::Zero();  ///< um, centre of the pipette's mouth
   Vec3 axis = Vec3::UnitZ();  ///< unit, from the mouth into the pipette
-  double reach = 0;           ///< um, largest distance from the axis inside; it lies in the wall of
-                              ///< the pipette, where no surface is
+  double reach = 0;           ///< um, radius of the inside; it lies within the wall of the
+                              ///< pipette, which no cell surface enters
   double pressure = 0;        ///< kPa, pressure difference to the outside
 };
 
