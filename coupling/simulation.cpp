@@ -15,7 +15,7 @@ namespace acinus::coupling {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-/// s, longest step after such a change: what was before says nothing about it.
+/// Longest step after a discontinuity, s: the last step predicts nothing there.
 constexpr double kFirstStep = 0.1;
 
 /// Next time after `time` at which a device changes its action or a wall opens, s; infinite if
@@ -29,7 +29,7 @@ double next_change(const Params& p, double time) {
   return next;
 }
 
-/// The next step is a first one.
+/// Resets step-size control, so that the next step counts as the first.
 void start_anew(Clock& clock) {
   clock.last_step = 0;
   clock.step = std::min(clock.step, kFirstStep);

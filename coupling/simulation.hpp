@@ -1,5 +1,5 @@
 #pragma once
-/// The driver of a hybrid world: start-up and run, steps, the events between steps, observers.
+/// Driver of a hybrid world: start-up, steps, the events between steps, observers.
 
 #include <functional>
 #include <string>
@@ -12,20 +12,21 @@
 
 namespace acinus::coupling {
 
-/// Looks at a simulation on its way and changes nothing. What is empty is not called.
+/// Observer of a simulation: call-backs that read the world and do not change it. Empty ones are
+/// not called.
 struct Observer {
-  /// The next moment after `time` at which a step has to end, both s since t = 0. Not asked during
+  /// Next time after `time` at which a step has to end, both s since t = 0. Not called during
   /// start-up.
   std::function<double(double time)> next_moment = nullptr;
-  /// A step was accepted; events are to come.
+  /// Called after an accepted step, before its events.
   std::function<void(const StepResult&)> step = nullptr;
-  /// A phase of start-up ended: what happened, in words.
+  /// Called at the end of a phase of start-up, with a message.
   std::function<void(const std::string& what)> phase = nullptr;
-  /// t = 0: cells have not begun to live yet. Other runs may start from this state.
+  /// Called at t = 0, before begin_life: the state that other runs may start from.
   std::function<void()> start = nullptr;
-  /// Cells were born, died or got better meshes. The daughters are where they were born.
+  /// Called after births, deaths and mesh repair. Daughters are at their places of birth.
   std::function<void(const LifeReport&)> life = nullptr;
-  /// Events are over. @return false: the simulation is to end here
+  /// Called after all events of a step.   @return false to end the simulation here
   std::function<bool()> events_over = nullptr;
 };
 
@@ -40,25 +41,25 @@ class Simulation {
   double time() const { return time_since_start(world_); }  ///< s since t = 0
   bool is_running() const { return world_.state.clock.phase == Phase::kRun; }
 
-  /// To be called after cells were added, removed or changed from outside.
+  /// Sizes the workspace anew. Call it after cells were added, removed or changed from outside.
   void resize();
 
-  /// Steps with all events until `end`, s since t = 0, through start-up where there is one.
-  /// Not ok: a step could not be accepted, or was interrupted as the process was asked to stop; the
-  /// state is the last good one. A step that fails at cells that dissolve removes them and is taken
-  /// again.
+  /// Advances with all events until `end`, s since t = 0, through start-up if it is not over. A
+  /// step that fails at dissolving cells removes them and is repeated.
+  /// @return not ok if a step could not be accepted or the process was asked to stop; the state is
+  /// then the last accepted one
   LoopResult run_until(double end, const Observer& observer = {});
 
  private:
-  /// State of the run before the last step.
+  /// Record of the run before the last step.
   struct LastStep {
     bool was_running = false;
-    double change = 0;  ///< s since t = 0, next discontinuity of what acts on the cells
+    double change = 0;  ///< s since t = 0, next discontinuity of devices and walls
   };
 
   double time_to_event(const Observer& observer) const;
   StepResult take_step(double limit, LastStep& last);
-  /// Observers and events after a step. @return false: the simulation is to end here
+  /// Calls observers and events after a step.   @return false to end the simulation here
   bool end_step(const StepResult& step, const LastStep& last, const Observer& observer);
   void end_step_of_start_up(const Observer& observer);
   bool run_events(const Observer& observer);

@@ -30,8 +30,8 @@ std::vector<StartBall> list_balls(const State& s) {
   return balls;
 }
 
-/// The ball of a lane as far as its faces leave it. The nodes of a ball stand a little outside it,
-/// so that the mesh has its volume.
+/// Ball of a lane, enlarged to the nodes: they lie slightly outside the nominal ball, so that the
+/// mesh has its volume.
 std::vector<Vec3> cut_ball(const State& s, const StartBall& ball,
                            const std::vector<dcm::RoomFace>& face) {
   const geometry::Topology& t = *s.dcm.group[ball.at / kLanes].topology;

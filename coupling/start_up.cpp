@@ -13,8 +13,8 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr double kLook = 600;            ///< s between looks at a settling tissue
-constexpr double kPressureFloor = 1e-3;  ///< kPa: changes relative to less than this mean nothing
+constexpr double kSettleCheckInterval = 600;  ///< s between checks of a settling tissue
+constexpr double kPressureFloor = 1e-3;       ///< kPa, least pressure that changes are related to
 
 double largest_speed(const State& s) {
   if (s.clock.last_step <= 0) return std::numeric_limits<double>::infinity();
@@ -27,8 +27,7 @@ double largest_speed(const State& s) {
   return std::sqrt(largest2) / s.clock.last_step;
 }
 
-/// Mean change of the cells' pressures since the last look, relative to their mean size, per
-/// second.
+/// Mean change of the cells' pressures since the last check over their mean magnitude, 1/s.
 double pressure_drift(World& world, Workspace& work) {
   State& s = world.state;
   observe(world, work);
@@ -52,7 +51,7 @@ double pressure_drift(World& world, Workspace& work) {
 void enter(Clock& c, Phase phase) {
   c.phase = phase;
   c.phase_start = c.time;
-  c.last_step = 0;  // forces jump: the last step says nothing about the next
+  c.last_step = 0;  // forces jump: the last step predicts nothing
 }
 
 }  // namespace
@@ -87,7 +86,9 @@ double time_to_phase_event(const World& world) {
     case Phase::kAdhere:
       return p.adhesion_ramp - in_phase;
     case Phase::kSettle:
-      return std::min(p.max_settle, kLook * (std::floor(in_phase / kLook + kGridSlack) + 1)) -
+      return std::min(p.max_settle,
+                      kSettleCheckInterval *
+                          (std::floor(in_phase / kSettleCheckInterval + kGridSlack) + 1)) -
              in_phase;
     case Phase::kRun:
       break;
@@ -109,8 +110,8 @@ std::string update_phase(World& world, Workspace& work) {
   }
   if (c.phase != Phase::kSettle) return {};
   const bool capped = in_phase >= p.max_settle - kSameTime;
-  const double looks = in_phase / kLook;
-  if (!capped && std::abs(looks - std::round(looks)) * kLook > 1e-6) return {};
+  const double checks = in_phase / kSettleCheckInterval;
+  if (!capped && std::abs(checks - std::round(checks)) * kSettleCheckInterval > 1e-6) return {};
   if (in_phase < 1e-6 && !capped) return {};
   const double speed = largest_speed(world.state), drift = pressure_drift(world, work);
   const bool rest = speed < p.speed_tolerance && drift < p.pressure_tolerance;

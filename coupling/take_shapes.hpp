@@ -1,5 +1,5 @@
 #pragma once
-/// Shapes of cells at the start, where they come from images or meshes.
+/// Initial shapes of cells from images or meshes.
 
 #include <cstdint>
 #include <string>
@@ -11,22 +11,23 @@
 
 namespace acinus::coupling {
 
-/// The surface that a cell is to have.
+/// Target surface of a cell.
 struct CellSurface {
   std::int64_t lineage = 0;
   const geometry::Surface* surface = nullptr;  ///< closed, outward
 };
 
 struct TakenShapes {
-  int laid = 0, inflated = 0;  ///< cells whose mesh was cast onto it, blown up inside it
-  std::vector<std::pair<std::int64_t, std::string>> round;  ///< left balls: lineage, cause
-  double worst_quality = 1;                                 ///< of a triangle
+  int laid = 0, inflated = 0;  ///< cells by kind of fit: projected onto it, inflated inside it
+  std::vector<std::pair<std::int64_t, std::string>> round;  ///< cells left as balls: lineage, cause
+  double worst_quality = 1;                                 ///< of all triangles
 };
 
-/// Gives deformable cells the shape of a surface: its volume is their reference volume, their
-/// cortex takes the shape for rest and forgets that in kForgetShape (dcm/shape/lay_mesh.hpp). Cells
-/// whose mesh does not fit stay balls of that volume. Spheres stay what they are. Ascending by
-/// lineage; the same for any number of threads.
+/// Shapes deformable cells to surfaces. The enclosed volume becomes the reference volume. The
+/// cortex takes the shape as its rest shape and relaxes from it within kForgetShape
+/// (dcm/shape/lay_mesh.hpp). Cells whose mesh does not fit remain balls of that volume. Spheres do
+/// not change. Cells are processed in ascending order of lineage; the result does not depend on the
+/// number of threads.
 /// @pre t = 0; radius and centre of each cell are those of its surface
 TakenShapes take_shapes(const std::vector<CellSurface>& surfaces, World& world);
 

@@ -73,10 +73,10 @@ class PulledPair {
 
   PairRest measure() {
     coupling::observe(simulation_.world(), simulation_.work());
-    const auto adhesion = coupling::find_adhesion(simulation_.world(), simulation_.work());
+    const auto adhesion = coupling::measure_adhesion(simulation_.world(), simulation_.work());
     const auto nodes = coupling::measure_nodes(simulation_.world(), simulation_.work());
     const auto cells = coupling::measure_cells(simulation_.world(), simulation_.work());
-    const auto tension = coupling::find_contact_tensions(nodes.tension, adhesion);
+    const auto tension = coupling::compute_contact_tensions(nodes.tension, adhesion);
     return {adhesion.area,
             (center(1) - center(0)).norm(),
             0.5 * (cells[0].cytosol_pressure + cells[1].cytosol_pressure),

@@ -11,8 +11,8 @@
 
 namespace acinus::coupling {
 
-/// Devices in the order in which they were added, which is that of their actions. A copy shares
-/// them: worlds that are cut out of one another have the same, and none is changed once it is here.
+/// Devices in order of addition, which is the order of their actions. Copies share them, since
+/// worlds cut out of each other have the same devices and none changes after its addition.
 class Apparatus {
  public:
   template <class D>
@@ -20,8 +20,7 @@ class Apparatus {
     devices_.push_back(std::make_shared<const D>(std::move(device)));
   }
 
-  /// First device of a kind; without one, a device of that kind as it is by default, which does
-  /// nothing.
+  /// First device of a kind, else a default one without action.
   template <class D>
   const D& get() const {
     static const D none{};
@@ -30,14 +29,14 @@ class Apparatus {
     return none;
   }
 
-  /// Leaves out devices that drive cells from place to place.
+  /// Apparatus without the devices that displace whole cells.
   void remove_drives();
 
-  // The same as of a single device, for all of them; see Device.
+  // The actions of Device, for all devices.
   double next_change(double time) const;
   void set_params(double time, std::span<dcm::Params> types) const;
   void add_cell_forces(double time, const ForcedCells& cells) const;
-  /// @pre the last count_rank_one() rank-one families of the system are theirs
+  /// @pre the last count_rank_one() rank-one families of the system belong to the devices
   void add_loads(double time, const LoadedCells& cells) const;
   std::size_t count_rank_one() const;
 

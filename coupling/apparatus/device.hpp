@@ -1,5 +1,5 @@
 #pragma once
-/// Interface of a device: something in the scene that acts on cells over time.
+/// Interface of a device, an object of the scene that acts on cells over time.
 
 #include <cstddef>
 #include <span>
@@ -13,7 +13,7 @@
 
 namespace acinus::coupling {
 
-/// Cells of both models, with forces on them as wholes.
+/// Cells of both models with forces on whole cells.
 struct ForcedCells {
   const dcm::State& dcm;
   const cbm::State& cbm;
@@ -21,21 +21,21 @@ struct ForcedCells {
   std::span<Vec3> cbm_force;  ///< [cbm cells] nN, added to
 };
 
-/// Deformable cells in a step, with the system that takes loads on their nodes.
+/// Deformable cells of a step with the system for loads on their nodes.
 struct LoadedCells {
   const dcm::State& state;
   const dcm::LaneData& lanes;
   solve::System& system;  ///< added to
 };
 
-/// Plain data of one device and its actions; those it does not override do nothing. Constant after
-/// load. Times are s since t = 0, negative during start-up; a step asks for its midpoint.
+/// Plain data of one device and its actions. Actions without an override are empty. Constant after
+/// load. Times are s since t = 0, negative during start-up; a step evaluates at its midpoint.
 class Device {
  public:
   virtual ~Device() = default;
 
-  /// Next time after `time` at which its action jumps or bends, s; infinite if there is none. Steps
-  /// end there, so that the action at the midpoint of a step is of second order.
+  /// Next time after `time` with a jump or kink of the action, s; infinite without one. Steps end
+  /// there, which keeps the midpoint value of second order.
   virtual double next_change(double time) const = 0;
 
   /// Changes constants of the cell types for a step.
@@ -46,15 +46,14 @@ class Device {
   virtual void add_cell_forces(double /*time*/, const ForcedCells& /*cells*/) const {}
 
   /// Adds forces on nodes and their stiffness.
-  /// @param own  the rank-one families it asked for
+  /// @param own  rank-one families counted by count_rank_one
   virtual void add_loads(double /*time*/, const LoadedCells& /*cells*/,
                          std::span<solve::RankOne> /*own*/) const {}
 
-  /// Number of rank-one families (one vector per cell) that its stiffness needs.
+  /// Number of rank-one families (one vector per cell) of its stiffness.
   virtual std::size_t count_rank_one() const { return 0; }
 
-  /// False for a device that drives cells from place to place: it is left out of worlds in which
-  /// nothing moves by itself.
+  /// True if the device acts in worlds at rest; false for devices that displace whole cells.
   virtual bool acts_at_rest() const { return true; }
 };
 

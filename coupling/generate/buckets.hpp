@@ -1,5 +1,5 @@
 #pragma once
-/// Spatial hashing for the generators: "is anything closer than d?" without looking at everything.
+/// Spatial hashing for the generators: range queries without a search over all items.
 
 #include <cmath>
 #include <cstdint>
@@ -19,13 +19,13 @@ inline double distance_to_segment(const Vec3& point, const Vec3& a, const Vec3& 
   return (point - a - t * along).norm();
 }
 
-/// Points and segments sorted into cubes of side `reach`. Each item is stored in every cube it may
-/// be within `reach` of, so a query looks into one cube.
+/// Points and segments sorted into cubes of side `reach`. Each item is stored in every cube within
+/// `reach` of it, so a query reads one cube.
 class Buckets {
  public:
   explicit Buckets(double reach) : reach_(reach) {}
 
-  /// A point is a segment of length zero.
+  /// Adds a segment; a point is a segment of length 0.
   void add(const Vec3& a, const Vec3& b) {
     const int index = static_cast<int>(item_.size());
     item_.push_back({a, b});
@@ -57,7 +57,7 @@ class Buckets {
             static_cast<std::int64_t>(std::floor(p.y() / reach_)),
             static_cast<std::int64_t>(std::floor(p.z() / reach_))};
   }
-  /// 21 bits an axis: unique for any domain of fewer than two million cubes a side.
+  /// Key of a cube, 21 bits an axis: unique for domains of fewer than two million cubes a side.
   static std::uint64_t key(const Cube& c) {
     constexpr std::int64_t kHalf = 1 << 20;
     return (static_cast<std::uint64_t>(c.x + kHalf) << 42) |

@@ -1,6 +1,6 @@
 #pragma once
-/// The piece of liver the lobule generator fills: a prism between mirror planes, with vertical
-/// veins. The central vein's axis is the z axis; z runs from 0 to the height.
+/// Domain of the lobule generator: a prism between mirror planes, with vertical veins. The axis of
+/// the central vein is the z axis; z runs from 0 to the height.
 
 #include <array>
 #include <string>
@@ -12,32 +12,32 @@ namespace acinus::coupling {
 
 enum class LobuleShape { kPie, kHexagon };  // one sixth, the whole lobule
 
-/// What the lobule block of a scene holds. Lengths um.
+/// Parameters of the lobule block of a scene; lengths in um.
 struct LobuleParameters {
   LobuleShape shape = LobuleShape::kPie;
   double radius = 280;  ///< circumradius of the hexagon
   double height = 48;
-  double lesion_radius = 150;  ///< no hepatocyte nearer the vein axis than this
+  double lesion_radius = 150;  ///< least distance of hepatocytes from the vein axis
   double central_vein_radius = 10;
   double portal_vein_radius = 15;
   double sinusoid_radius = 4.7;
   double vessel_fraction = 0.12;   ///< target of sinusoid length * pi r^2 / volume
   double branch_density = 4.8e-5;  ///< branch points per um^3
   double min_distance = 20;        ///< smallest distance between seeds
-  int cells = 90;                  ///< wanted seeds outside the lesion
-  double initial_radius = 3;       ///< of a hepatocyte at the start: distance kept from the planes
+  int cells = 90;                  ///< requested seeds outside the lesion
+  double initial_radius = 3;  ///< initial radius of a hepatocyte: least distance from the planes
 };
 
-/// Cells stay where (x - point) . normal >= 0.
+/// Mirror plane; inside is (x - point) . normal >= 0.
 struct MirrorPlane {
   std::string name;
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();
 };
 
-/// A vertical vein. Sinusoids start on its wall at `wall_angle[level % 2]`, one level every 12 um
-/// of z: the 15 and 45 degree positions of each 60 degree sector alternate so that neighbours do
-/// not overlap.
+/// Vertical vein. Sinusoids start on its wall at `wall_angle[level % 2]`, one level every 12 um of
+/// z: the 15 and 45 degree positions of each 60 degree sector alternate so that neighbours do not
+/// overlap.
 struct Vein {
   bool portal = false;
   Vec3 axis = Vec3::Zero();  ///< foot at z = 0
@@ -53,11 +53,11 @@ struct Domain {
   double height = 0;
 };
 
-/// Pie: one sixth of the hexagon, an equilateral triangle with its apex on the vein axis, symmetric
-/// about +x, with the portal vein at the outer corner of positive y; three vertical planes.
-/// Hexagon: corners at 30 + 60 k degrees, portal veins at 30, 150 and 270; six vertical planes.
-/// Throws Error naming the key if a length is not positive, the veins do
-/// not fit.
+/// Makes the domain. Pie: one sixth of the hexagon, an equilateral triangle with its apex on the
+/// vein axis, symmetric about +x, with the portal vein at the outer corner of positive y; three
+/// vertical planes. Hexagon: corners at 30 + 60 k degrees, portal veins at 30, 150 and 270; six
+/// vertical planes. Throws Error naming the key if a length is not positive or the veins do not
+/// fit.
 Domain make_domain(const LobuleParameters& parameters);
 
 /// Distance to the nearest plane, positive inside, um.

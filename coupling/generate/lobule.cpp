@@ -6,9 +6,9 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr double kVeinMargin = 20;      // um beyond the bottom and top planes
-constexpr double kSeedClearance = 4;    // um from a vessel's wall: a cell of 3 um and 1 um to spare
-constexpr double kRoomyClearance = 10;  ///< um, tried first
+constexpr double kVeinMargin = 20;    // um beyond the bottom and top planes
+constexpr double kSeedClearance = 4;  // um from a vessel's wall: a cell of 3 um and 1 um to spare
+constexpr double kLargestClearance = 10;  ///< um, tried first
 constexpr int kMaxMisses = 200000;
 
 void add_segment(Lobule& lobule, int a, int b, double radius, VesselKind kind) {
@@ -33,7 +33,7 @@ void add_vessels(const LobuleParameters& p, const Domain& domain, const Sinusoid
 
 void add_seeds(const LobuleParameters& p, const Domain& domain, const Sinusoids& sinusoids,
                const Uniform& uniform, Lobule& lobule) {
-  Buckets sinusoid(p.sinusoid_radius + kRoomyClearance), seed(p.min_distance);
+  Buckets sinusoid(p.sinusoid_radius + kLargestClearance), seed(p.min_distance);
   for (const auto& [a, b] : sinusoids.segment) sinusoid.add(sinusoids.node[a], sinusoids.node[b]);
   const auto fits = [&](const Vec3& point, double clearance) {
     if (depth_inside(domain, point) < p.initial_radius + clearance - kSeedClearance) return false;
@@ -43,8 +43,9 @@ void add_seeds(const LobuleParameters& p, const Domain& domain, const Sinusoids&
     return !seed.any_within(point, p.min_distance) &&
            !sinusoid.any_within(point, p.sinusoid_radius + clearance);
   };
-  // The roomiest places first: a sphere that grows between two close vessels can never get out.
-  for (double clearance = kRoomyClearance; clearance >= kSeedClearance; clearance -= 1) {
+  // Places with the largest clearance first: a sphere that grows between two close vessels can
+  // never get out.
+  for (double clearance = kLargestClearance; clearance >= kSeedClearance; clearance -= 1) {
     const int patience = clearance > kSeedClearance ? kMaxMisses / 20 : kMaxMisses;
     for (int misses = 0; static_cast<int>(lobule.seeds.size()) < p.cells && misses < patience;
          ++misses) {

@@ -22,8 +22,8 @@ void check_spacing(double spacing, double jitter) {
         fmt::format("/cells/jitter: {} um, must not be negative", jitter));
 }
 
-/// Moves each point to a random place of the ball around it. Cube root of a uniform number and a
-/// direction from z and longitude: exactly three numbers a point.
+/// Displaces each point to a random place in the ball around it: cube root of a uniform number and
+/// a direction from z and longitude, exactly three numbers per point.
 void add_jitter(double jitter, const Uniform& uniform, std::vector<Vec3>& point) {
   if (jitter == 0) return;
   for (Vec3& x : point) {
@@ -34,7 +34,8 @@ void add_jitter(double jitter, const Uniform& uniform, std::vector<Vec3>& point)
   }
 }
 
-/// Where a Hilbert curve enters and leaves the w-th of eight octants, in Gray-code order.
+/// Gray code and its inverse, entry corner and direction of a Hilbert curve in the w-th of eight
+/// octants.
 unsigned gray(unsigned w) { return w ^ (w >> 1); }
 unsigned gray_inverse(unsigned g) { return (g ^ (g >> 1) ^ (g >> 2)) & 7u; }
 unsigned entry(unsigned w) { return w == 0 ? 0 : gray(2 * ((w - 1) / 2)); }
@@ -45,8 +46,8 @@ unsigned intra_direction(unsigned w) {
 unsigned rotate_left(unsigned x, unsigned by) { return ((x << by) | (x >> (3 - by))) & 7u; }
 unsigned rotate_right(unsigned x, unsigned by) { return ((x >> by) | (x << (3 - by))) & 7u; }
 
-/// Position along the Hilbert curve: at each level the octant, seen in the frame (corner of entry,
-/// main direction) that the levels above have left.
+/// Position along the Hilbert curve: at each level the octant in the frame (corner of entry, main
+/// direction) left by the levels above.
 std::uint64_t hilbert_key(const std::array<std::uint32_t, 3>& cell, int bits) {
   std::uint64_t key = 0;
   unsigned corner = 0, direction = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Regular starting positions, and an order in space that keeps neighbours close in memory.
+/// Regular starting positions, and a space-filling order that keeps neighbours close in memory.
 
 #include <array>
 #include <span>
@@ -17,12 +17,12 @@ struct ClumpParameters {
   Lattice lattice = Lattice::kFcc;
   int count = 13;
   double spacing = 24;  ///< um between nearest neighbours
-  double jitter = 0;    ///< um, radius of the ball a point is moved in
+  double jitter = 0;    ///< um, radius of the ball of random displacements
 };
 
-/// The `count` lattice points nearest the origin, nearest first (equal distances: by z, y, x).
-/// Draws three numbers a point, in that order, only if jitter > 0. Throws Error if count < 0 or
-/// spacing <= 0 or jitter < 0.
+/// Makes a clump: the `count` lattice points nearest the origin, nearest first (equal distances: by
+/// z, y, x). Draws three numbers per point, in that order, only if jitter > 0. Throws Error if
+/// count < 0, spacing <= 0 or jitter < 0.
 std::vector<Vec3> make_clump(const ClumpParameters& parameters, const Uniform& uniform);
 
 struct BoxParameters {
@@ -32,7 +32,7 @@ struct BoxParameters {
   double jitter = 0;                  ///< um
 };
 
-/// A block of count[0] x count[1] x count[2] points centred on the origin, x fastest. Hexagonal:
+/// Makes a box: count[0] x count[1] x count[2] points centred on the origin, x fastest. Hexagonal:
 /// rows along x, shifted in turn, stacked as a close packing. Errors as make_clump.
 std::vector<Vec3> make_box(const BoxParameters& parameters, const Uniform& uniform);
 

@@ -9,12 +9,12 @@ namespace {
 constexpr int kPipetteSides = 48;
 constexpr int kArcSteps = 4;
 
-/// A point of the section through the axis.
+/// Point of the section through the axis.
 struct ProfilePoint {
   double radius = 0, height = 0;
 };
 
-/// A quarter of a circle, on round the section; one point where the rim is sharp.
+/// Adds a quarter circle to the section, or a point for a sharp rim.
 void add_corner(double radius, double height, double lip, double start,
                 std::vector<ProfilePoint>& profile) {
   for (int k = 0; k <= (lip > 0 ? kArcSteps : 0); ++k) {
@@ -23,7 +23,7 @@ void add_corner(double radius, double height, double lip, double start,
   }
 }
 
-/// Round the section of the wall: the inner rim of the mouth, its outer rim, then the far end.
+/// Closed section of the wall: inner rim of the mouth, outer rim, then the far end.
 std::vector<ProfilePoint> profile_of(const contact::Pipette& p) {
   const double inner = p.radius + p.lip, outer = p.radius + p.thickness - p.lip;
   std::vector<ProfilePoint> profile;

@@ -22,7 +22,7 @@ constexpr double kLongestExtra = 45;    // um, edges beyond the spanning tree
 constexpr int kMaxDegree = 4;           // sinusoids at a branch point
 constexpr double kRadialBias = 0.6;     // extra cost of an edge across the flow
 constexpr double kDiskFraction = 0.78;  // disk distance in units of density^(-1/3)
-constexpr int kMaxMisses = 100000;      // darts in a row that found no room: the domain is full
+constexpr int kMaxMisses = 100000;      // rejected darts in a row that end the sampling
 
 struct Edge {
   int a, b;
@@ -50,7 +50,7 @@ void add_branch_points(const LobuleParameters& p, const Domain& domain, const Un
   }
 }
 
-/// Returns the vein of each node, -1 for branch points.
+/// Vein of each node, -1 for branch points.
 std::vector<int> add_wall_nodes(const Domain& domain, std::vector<Vec3>& node) {
   std::vector<int> vein_of(node.size(), -1);
   for (std::size_t v = 0; v < domain.vein.size(); ++v) {
@@ -66,7 +66,7 @@ std::vector<int> add_wall_nodes(const Domain& domain, std::vector<Vec3>& node) {
   return vein_of;
 }
 
-/// Nearest horizontal distance of a segment to a vein's axis: the segment seen from above.
+/// Smallest horizontal distance of a segment from the axis of a vein, um.
 double axis_distance(const Vein& vein, Vec3 a, Vec3 b) {
   a.z() = b.z() = 0;
   return distance_to_segment(vein.axis, a, b);
@@ -92,8 +92,7 @@ std::vector<Edge> delaunay_edges(const std::vector<Vec3>& node, const std::vecto
     const double length = along.norm();
     const double cosine = std::abs(along.dot(radial)) / (length * radial.norm());
     bool through = false;
-    for (const Vein& vein :
-         domain.vein)  // wall nodes stand on the wall: leave them room for round-off
+    for (const Vein& vein : domain.vein)  // wall nodes are on the wall: allow for round-off
       through = through || axis_distance(vein, node[a], node[b]) < (1 - 1e-6) * vein.radius;
     edge.push_back({a, b, length, length * (1 + kRadialBias * (1 - cosine)), through});
   }
@@ -103,7 +102,7 @@ std::vector<Edge> delaunay_edges(const std::vector<Vec3>& node, const std::vecto
   return edge;
 }
 
-/// Picks edges and keeps the books: degrees, connected parts, length.
+/// Selection of edges, with degrees, connected parts and total length.
 class Builder {
  public:
   Builder(const std::vector<int>& vein_of, Sinusoids& out)
@@ -120,8 +119,8 @@ class Builder {
   bool joined(const Edge& e) { return part_.find(e.a) == part_.find(e.b); }
   bool taken(const Edge& e) const { return taken_.contains({e.a, e.b}); }
   bool at_wall(const Edge& e) const { return vein_of_[e.a] >= 0 || vein_of_[e.b] >= 0; }
-  /// A wall node takes one sinusoid; others fewer than `limit`.
-  bool room(const Edge& e, int limit) const {
+  /// True if both nodes may take another sinusoid: wall nodes one, others fewer than `limit`.
+  bool has_free_degree(const Edge& e, int limit) const {
     const auto free = [&](int i) { return degree_[i] < (vein_of_[i] >= 0 ? 1 : limit); };
     return free(e.a) && free(e.b);
   }
@@ -156,9 +155,9 @@ Sinusoids make_sinusoids(const LobuleParameters& p, const Domain& domain, const 
   Builder builder(vein_of, out);
   std::vector<Edge> rest;
   for (const Edge& e : edge)
-    if (builder.at_wall(e) && builder.room(e, kMaxDegree)) builder.take(e);
+    if (builder.at_wall(e) && builder.has_free_degree(e, kMaxDegree)) builder.take(e);
   for (const Edge& e : edge)
-    if (!builder.joined(e) && builder.room(e, kMaxDegree)) builder.take(e);
+    if (!builder.joined(e) && builder.has_free_degree(e, kMaxDegree)) builder.take(e);
   for (const Edge& e : edge) {
     if (!builder.joined(e))  // a part that only a crowded node or a vein can join
       builder.take(e);
@@ -170,7 +169,7 @@ Sinusoids make_sinusoids(const LobuleParameters& p, const Domain& domain, const 
     for (const Edge& e : rest) {
       if (out.length >= out.target_length) return out;
       if (builder.taken(e)) continue;
-      if (builder.room(e, limit))
+      if (builder.has_free_degree(e, limit))
         builder.take(e);
       else
         left.push_back(e);

@@ -16,7 +16,7 @@ struct Ring {
   double radius;
 };
 
-/// Rings from one end to the other: one on each round end (at 45 degrees), the others between.
+/// Rings along a segment: one on each round end (at 45 degrees), the others between.
 std::vector<Ring> rings_of(const Vec3& a, const Vec3& b, double radius_a, double radius_b,
                            const Vec3& along) {
   const double length = (b - a).norm();

@@ -18,10 +18,10 @@ namespace {
 
 using contact::Contact;
 
-/// The surface that presses and the sphere below.
+/// Deformable surface and sphere of a pair.
 struct PairLaw {
   contact::CohesiveLaw cohesive;
-  double hardening = 0;  ///< nN/um^3, by how much the contact stiffens as the indentation grows
+  double hardening = 0;  ///< nN/um^4, derivative of the stiffness with respect to indentation
 };
 
 PairLaw law_of(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
@@ -31,10 +31,10 @@ PairLaw law_of(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
   const dcm::Params& a = in.dcm.params[in.dcm.state.group[lane / kLanes].type];
   const cbm::Params& b = in.cbm.params[in.cbm.state.type[sphere]];
   const Compliance under =
-      find_compliance(in.dcm.options.repulsion,
-                      {in.cbm.cells.radius[sphere], in.cbm.state.young[sphere], b.poisson,
-                       modulus[sphere], b.correction.corrects() ? &b.correction : nullptr},
-                      k.depth);
+      compute_compliance(in.dcm.options.repulsion,
+                         {in.cbm.cells.radius[sphere], in.cbm.state.young[sphere], b.poisson,
+                          modulus[sphere], b.correction.corrects() ? &b.correction : nullptr},
+                         k.depth);
   return {{in.dcm.options.adhesion_factor * std::sqrt(a.adhesion * b.adhesion), under.stiffness,
            in.dcm.options.range_factor * dcm_work.body[body].topology->mean_rest_length *
                in.dcm.lanes.radius[lane]},
@@ -75,7 +75,7 @@ void find_pair(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
   for (Contact& k : found) k.depth = depth;
 }
 
-/// Pairs of surfaces and spheres that may touch.
+/// Candidate pairs of surfaces and spheres (broad phase).
 void find_near(const InterfaceInput& in, double range, dcm::ContactWorkspace& dcm_work,
                const cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work) {
   work.body.clear();
@@ -97,7 +97,7 @@ void find_near(const InterfaceInput& in, double range, dcm::ContactWorkspace& dc
 
 }  // namespace
 
-Compliance find_compliance(double repulsion, const SphereSurface& sphere, double depth) {
+Compliance compute_compliance(double repulsion, const SphereSurface& sphere, double depth) {
   const double d = depth / sphere.radius;
   cbm::Modulus modulus{sphere.modulus.value, 0};
   if (sphere.law) {
@@ -107,7 +107,7 @@ Compliance find_compliance(double repulsion, const SphereSurface& sphere, double
   const double per_modulus = 4 / (3 * kPi * sphere.radius * (1 - sphere.poisson * sphere.poisson) *
                                   std::sqrt(std::clamp(d, kLeastDepth, kMostDepth)));
   const double winkler = per_modulus * modulus.value, together = 1 / (1 / repulsion + 1 / winkler);
-  // That the contact widens at the same time softens it; the matrix may be too stiff.
+  // The softening by a growing contact area is left out; the matrix may be too stiff.
   const double yields = together / winkler;
   return {together, yields * yields * per_modulus * modulus.slope / sphere.radius};
 }

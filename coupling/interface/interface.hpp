@@ -1,5 +1,5 @@
 #pragma once
-/// The interface between the two models: contact of a deformable surface with a compliant sphere.
+/// Interface between the two models: contact of a deformable surface with a compliant sphere.
 ///
 /// Tension as between two deformable cells. Under compression the sphere yields: pressure = -k_s
 /// gap on the present area (docs/decisions/0035.md) with 1/k_s = 1/k_rep + 1/k_w and the Winkler
@@ -31,11 +31,11 @@ struct InterfaceParams {
   double friction_factor = 1;  ///< 0 while cells grow to size
 };
 
-/// What one deformable cell and one sphere exert on each other, for users to read.
+/// Net contact of one deformable cell and one sphere, for reports.
 struct InterfaceForce {
   std::int64_t dcm_id = 0, cbm_id = 0;
   Vec3 force = Vec3::Zero();  ///< nN, on the deformable cell; the sphere gets the opposite
-  double area = 0;            ///< um^2 in touch
+  double area = 0;            ///< um^2, contact area
   double gap = 0;             ///< um, smallest
 };
 
@@ -51,66 +51,67 @@ namespace acinus::coupling {
 /// Scratch of the interface.
 struct InterfaceWorkspace {
   std::vector<Box> body, sphere;
-  std::vector<std::pair<int, int>> near;             ///< bodies and spheres that may touch
-  std::vector<std::vector<contact::Contact>> found;  ///< of each such pair; may be longer
-  std::vector<std::pair<int, double>> area;          ///< (sphere, um^2) of every pair in touch
+  std::vector<std::pair<int, int>> near;             ///< candidate pairs: body, sphere
+  std::vector<std::vector<contact::Contact>> found;  ///< [pair], capacity may be larger
+  std::vector<std::pair<int, double>> area;          ///< (sphere, um^2) of every touching pair
 };
 
-/// What a deformable cell presses on.
+/// Elastic constants of a sphere as the partner of a deformable surface.
 struct SphereSurface {
   double radius = 0;  ///< um
   double young = 0;   ///< kPa, without correction
   double poisson = 0;
   cbm::Modulus modulus;                    ///< kPa, at its overlap d
-  const cbm::StiffnessLaw* law = nullptr;  ///< nothing: none corrects
+  const cbm::StiffnessLaw* law = nullptr;  ///< null: no correction
 };
 
-/// Smallest indentation, in radii, that enters the compliance of a sphere.
+/// Least indentation, in radii, used in the compliance of a sphere.
 inline constexpr double kLeastDepth = 0.01;
 
-/// Largest indentation, in radii, that does. Beyond it a sphere's neighbours share its whole
-/// surface, the area of a contact grows no more, and softening on as that of two single spheres
-/// does would let a deformable cell under pressure flow into the sphere: at uniform pressure the
-/// indentation would be (3 pi p / 4 E*)^2 R.
+/// Largest indentation, in radii, used in the compliance of a sphere. Beyond it the neighbours of a
+/// sphere share its whole surface and contact areas grow no more. Softening as for two single
+/// spheres would then let a deformable cell under pressure flow into the sphere: at uniform
+/// pressure the indentation would be (3 pi p / 4 E*)^2 R.
 inline constexpr double kMostDepth = 0.15;
 
-/// Stiffness of a sphere's surface under a deformable one, nN/um^3, and how it grows with the
-/// indentation, nN/um^4: 0 where it falls.
+/// Stiffness of a sphere's surface under a deformable one, nN/um^3, and its derivative with respect
+/// to indentation, nN/um^4; 0 where it decreases.
 struct Compliance {
   double stiffness = 0, slope = 0;
 };
 
-/// The series stiffness k_s. @param depth  um
-Compliance find_compliance(double repulsion, const SphereSurface& sphere, double depth);
+/// Series stiffness k_s.   @param depth  um
+Compliance compute_compliance(double repulsion, const SphereSurface& sphere, double depth);
 
-/// What the functions of the interface read.
+/// Input of the interface functions.
 struct InterfaceInput {
   dcm::ContactInput dcm;
   cbm::ContactInput cbm;
   const InterfaceParams& params;
 };
 
-/// Appends all interface contacts. Adds their touching shares to the surface points and, if
-/// overlaps are counted, theirs to the spheres, young ones too: a deformable cell is a neighbour of
-/// full strength. @pre the deformable cells' find_contacts, the spheres' compute_overlaps if any
+/// Searches all interface contacts and appends them. Adds their touching shares to the surface
+/// points. If overlaps are counted, adds theirs to the spheres, young ones included: a deformable
+/// cell is a neighbour of full strength.
+/// @pre dcm::find_contacts, and cbm::compute_overlaps if there is a correction
 void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
                     cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work,
                     contact::ContactList& contacts);
 
-/// Adds the areas in touch to the spheres. @pre find_interface, then the spheres' find_contacts
+/// Adds contact areas to the spheres.   @pre find_interface, then cbm::find_contacts
 void add_interface_areas(const InterfaceWorkspace& work, cbm::ContactWorkspace& cbm_work);
 
-/// Side b of a contact of the interface.
+/// Side b of an interface contact.
 solve::Side sphere_side(const InterfaceInput& in, const contact::Contact& contact);
 
-/// Completes the contacts of the interface and adds a link for each: one number, opposite signs,
-/// both models' unknowns in one system.
+/// Computes force, stiffness and friction of the interface contacts and adds a link for each. Both
+/// sides get the same force with opposite signs in one system.
 /// @param modulus  [n_cell] kPa of the spheres
 void add_interface_loads(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
                          std::span<const cbm::Modulus> modulus, contact::ContactList& contacts,
                          solve::Links& links);
 
-/// The forces per pair of cells, ordered by (dcm, cbm) position in the arrays.
+/// Net forces per pair of cells, ordered by (dcm, cbm) position in the arrays.
 /// @pre the contacts are complete
 std::vector<InterfaceForce> compute_interface_forces(const InterfaceInput& in,
                                                      const dcm::ContactWorkspace& dcm_work,

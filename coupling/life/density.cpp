@@ -9,14 +9,14 @@
 namespace acinus::coupling {
 namespace {
 
-/// Something a cell adds to its neighbourhood, where it stands.
+/// Contribution of a cell to the density at its centre.
 struct Contribution {
   Vec3 center;
   double amount;
 };
 
-/// The cells and their images in mirror planes. Each plane mirrors what the planes before it made,
-/// so corners have the images of images.
+/// Cells and their mirror images. Each plane mirrors the images of the planes before it, so corners
+/// have images of images.
 std::vector<Contribution> with_images(const World& world, std::vector<Contribution> all) {
   const double time = std::max(0.0, time_since_start(world));
   for (const contact::Plane& p : world.params.boundary.planes) {
@@ -32,8 +32,8 @@ std::vector<Contribution> with_images(const World& world, std::vector<Contributi
   return all;
 }
 
-/// Sum of what the cells in the ball around each cell contribute, per volume of the ball.
-/// @param amount  of a cell
+/// Sum of the contributions in the ball around each cell, per volume of the ball.
+/// @param amount  contribution of a cell
 template <class Amount>
 std::vector<double> sum_around(const World& world, Amount amount) {
   const State& s = world.state;

@@ -1,5 +1,5 @@
 #pragma once
-/// How crowded the neighbourhood of each cell is.
+/// Local density of cells.
 
 #include <vector>
 
@@ -7,15 +7,16 @@
 
 namespace acinus::coupling {
 
-/// Radius of the ball in which neighbours are counted, um: two cell diameters at rest.
+/// Radius of the ball of the density count, um: two cell diameters at rest.
 inline constexpr double kDensityReach = 48;
 
-/// Number of cell centres within kDensityReach of each cell's centre, its own counted, per volume
-/// of that ball, 1/um^3; [dcm lanes, then cbm cells], 0 where there is no cell. Cells behind a
-/// mirror plane count as their images do. Vessels are not taken off the volume.
+/// Number density of cells around each cell, 1/um^3: centres within kDensityReach, its own
+/// included, per volume of that ball; [dcm lanes, then cbm cells], 0 in empty lanes. Mirror images
+/// of cells count. The volume of vessels is not subtracted.
 std::vector<double> local_densities(const World& world);
 
-/// Volume at rest of the cells counted by local_densities over that of the ball, dimensionless.
+/// Volume fraction around each cell: rest volume of the cells counted by local_densities over that
+/// of the ball.
 std::vector<double> local_volume_shares(const World& world);
 
 }  // namespace acinus::coupling

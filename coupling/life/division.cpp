@@ -17,16 +17,16 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr int kMostPlanes = 8;
-/// A daughter's mesh with a worse triangle than this is not accepted.
+constexpr int kMostPlanes = 8;  ///< planes tried at most
+/// Least triangle quality of an accepted daughter mesh.
 constexpr double kLeastBirthQuality = 0.1;
-/// How far later planes turn away from the wanted axis: the share of a random direction.
+/// Tilt of later planes: share of a random direction added to the axis.
 constexpr double kTurn = 0.5;
-/// Nodes nearer the cut than this share of a mean edge lie on it and stay there when the volume is
-/// made exact: the sister is on the other side.
+/// Distance from the cut, in mean edges, of nodes that are fixed while the volume is made exact,
+/// since the sister is on the other side.
 constexpr double kOnCut = 0.15;
 
-/// A start in a folded half, as a share of its largest ball.
+/// Radius of the initial ball in a folded half, over that of its largest ball.
 constexpr double kSeed = 0.9;
 
 Vec3 random_direction(const World& world, std::int64_t lineage, int attempt) {
@@ -36,7 +36,7 @@ Vec3 random_direction(const World& world, std::int64_t lineage, int attempt) {
   return v.normalized();
 }
 
-/// Along the vessel with the nearest wall; zero without vessels.
+/// Direction of the vessel with the nearest wall; zero without vessels.
 Vec3 along_nearest_vessel(const geometry::Network& network, const Vec3& x) {
   const int segment = geometry::nearest_segment(network, x).segment;
   if (segment < 0) return Vec3::Zero();
@@ -45,12 +45,12 @@ Vec3 along_nearest_vessel(const geometry::Network& network, const Vec3& x) {
   return along.norm() > 0 ? along.normalized() : Vec3::Zero();
 }
 
-/// The mother as the split sees her.
+/// Mother cell, prepared for the division.
 struct MotherCell {
   std::vector<Vec3> node;
   const geometry::Topology* topology = nullptr;
   double volume = 0, rest_volume = 0;  ///< um^3
-  double stretch = 1;                  ///< of the surface, area over its reference
+  double stretch = 1;                  ///< area of the surface over its reference
 };
 
 MotherCell look_at(const World& world, std::size_t lane) {
@@ -66,7 +66,7 @@ MotherCell look_at(const World& world, std::size_t lane) {
   return m;
 }
 
-/// Farthest of the nodes outside a closed surface, um.
+/// Largest distance of the nodes outside a closed surface, um.
 double farthest_outside(const std::vector<Vec3>& node, const geometry::AuditBody& body) {
   double farthest = 0;
   for (const Vec3& x : node)
@@ -91,7 +91,7 @@ const char* describe(dcm::SplitFailure failure) {
   return "";
 }
 
-/// What is wrong with a daughter's mesh, or empty.
+/// Fault of a daughter mesh, or empty.
 std::string find_fault(const geometry::Topology& topology, const std::vector<Vec3>& node) {
   if (geometry::compute_quality(node, topology.triangle) < kLeastBirthQuality)
     return "a daughter's mesh is too distorted";
@@ -100,8 +100,8 @@ std::string find_fault(const geometry::Topology& topology, const std::vector<Vec
   return {};
 }
 
-/// Fills a half that no point sees whole: a ball inside it is blown up until it fills the mother's
-/// surface, which stands still.
+/// Fills a half that is not star-shaped: inflates a ball inside it up to the fixed surface of the
+/// mother.
 Filling blow_up(const World& world, int type, const MotherCell& mother,
                 const geometry::CutPlane& plane, const geometry::Surface& half) {
   const geometry::Topology& topology = *mother.topology;
@@ -120,7 +120,7 @@ Filling blow_up(const World& world, int type, const MotherCell& mother,
   return filling;
 }
 
-/// Both daughters on either side of a plane.   @return empty, or what is wrong with it
+/// Makes both daughters of a plane.   @return fault of the plane, or empty
 std::string try_plane(const World& world, int type, const MotherCell& mother, const Vec3& axis,
                       DaughterMeshes& daughters) {
   const double thickness = world.params.dcm[type].cortex_thickness;

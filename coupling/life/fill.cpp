@@ -12,15 +12,15 @@
 namespace acinus::coupling {
 namespace {
 
-/// Friction with the medium and within the cortex, nN s/um^3 and nN s/um: far below that of any
-/// tissue, so that a few seconds bring the cell to rest.
+/// Friction with the medium and within the cortex, nN s/um^3 and nN s/um: far below that of tissue,
+/// for rest within seconds.
 constexpr double kFriction = 1e-3;
-/// First step and time over which the volume grows, s.
+/// First step and duration of growth, s.
 constexpr double kFirstFillStep = 0.02, kGrowth = 2;
-/// At rest: no node moves farther in a step at least this long.
+/// Largest node displacement at rest, in a step of at least this length.
 constexpr double kRestMove = 0.01, kRestStep = 1;  // um, s
 constexpr int kMostSteps = 150;
-/// Share of the enclosed volume from which a start counts as filling already.
+/// Share of the enclosed volume above which a start needs no growth.
 constexpr double kNearlyFull = 0.9;
 
 }  // namespace

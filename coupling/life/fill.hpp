@@ -1,5 +1,5 @@
 #pragma once
-/// The sub-simulation of a division: a mesh fills a closed surface from inside.
+/// Sub-simulation of a division: a mesh fills a closed surface from inside.
 
 #include <string>
 #include <vector>
@@ -16,10 +16,10 @@ struct Filling {
   int steps = 0;
 };
 
-/// Lets a cell of the given type and mesh, in a liquid that hardly resists, come to rest inside a
-/// surface that stands still and does not stick. The reference volume is what the surface encloses,
-/// and the cortex is at rest on as much area as the surface has, so that nothing draws the cell out
-/// of corners. Starts from `node`; the volume grows in the course if that encloses less.
+/// Relaxes a cell of a type and mesh, in a medium of low friction, inside a fixed surface without
+/// adhesion. The reference volume is that enclosed by the surface, and the rest area of the cortex
+/// equals the area of the surface, so no tension draws the cell out of corners. Starts from `node`;
+/// the volume grows in the course if that encloses less.
 Filling fill(const World& world, int type, const geometry::Topology& topology,
              const std::vector<Vec3>& node, const geometry::Surface& envelope);
 

@@ -25,15 +25,15 @@
 namespace acinus::coupling {
 namespace {
 
-/// A cell whose division failed waits this long before it is tried again, s.
+/// Time to the next attempt after a failed division, s.
 constexpr double kWait = 600;
 
-/// Cells to come. Entry k of each list belongs to cell k.
+/// Daughters to be made. Entry k of each list belongs to cell k.
 struct Newborn {
   std::vector<dcm::NewCell> shell;
   std::vector<std::vector<Vec3>> node;
   std::vector<double> stretch;
-  std::vector<double> tension;  ///< nN, mean of the mother's edges
+  std::vector<double> tension;  ///< nN, mean over the edges of the mother
   std::vector<double> mitosis;  ///< s
   std::vector<Cycle> shell_cycle;
   std::vector<cbm::NewCell> sphere;
@@ -104,7 +104,7 @@ void bear_shells(World& world, const Cell& mother, const DaughterMeshes& daughte
   report.divisions.push_back(f);
 }
 
-/// The newborn as a state of their own.
+/// State of the newborn cells alone.
 State make_state(const World& world, const Newborn& born, double time) {
   State s;
   s.dcm = dcm::make_state(born.shell);
@@ -138,7 +138,7 @@ void add_settling(const Settled& settled, const std::array<std::int64_t, 2>& dau
   }
 }
 
-/// Splits all deformable mothers; many are worked on by all threads.
+/// Divides all deformable mothers, in parallel if there are many.
 void divide_shells(World& world, const std::vector<Cell>& mothers, Newborn& born,
                    std::vector<std::uint8_t>& gone, LifeReport& report) {
   std::vector<DaughterMeshes> daughters(mothers.size());
@@ -166,7 +166,7 @@ void divide_shells(World& world, const std::vector<Cell>& mothers, Newborn& born
   }
 }
 
-/// Starts to shrink a cell.
+/// Starts the lysis of a cell.
 void begin_lysis(World& world, const Cell& c, LifeReport& report) {
   State& s = world.state;
   const DeathParams& p = cycle_of(world.params, s, c).death;
@@ -183,7 +183,7 @@ LifeReport undo(State& before, State& s) {
   return nothing;
 }
 
-/// Division and death. Interrupted: nothing happened.
+/// Runs division and death. Nothing changes if interrupted.
 LifeReport turn_over(World& world, Workspace& work) {
   LifeReport report;
   if (world.state.cycle.empty()) return report;
@@ -205,7 +205,7 @@ LifeReport turn_over(World& world, Workspace& work) {
     type[c.index] = cycle_of(world.params, s, c).death.type;
     begin_lysis(world, c, report);
   }
-  // In the order of their numbers: which cell is born when must not depend on how cells are stored.
+  // In order of lineage: births must not depend on storage order.
   std::ranges::sort(plan.divide, {}, [&](const Cell& c) { return lineage_of(s, c); });
   std::vector<Cell> shells;
   for (const Cell& c : plan.divide) {

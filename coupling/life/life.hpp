@@ -1,5 +1,5 @@
 #pragma once
-/// The events between steps: cells enter and leave their cycle, divide and die.
+/// Events between steps: entry into and exit from the cell cycle, division and death.
 
 #include <cstdint>
 #include <span>
@@ -11,21 +11,21 @@
 
 namespace acinus::coupling {
 
-/// Stage 8 of a step: applies rules and inhibition on their time grid, then divides what has
-/// doubled its reference volume and removes what is dead. Time stands still. The workspace is sized
-/// anew when the set of cells changed. Then puts cells to sleep or wakes them (sleep.hpp), lets the
-/// zoom follow (zoom/update.hpp), and mends meshes that degenerate (mesh_health.hpp).
+/// Stage 8 of a step: applies rules and inhibition on their time grid, divides cells that have
+/// doubled their reference volume, and removes dead cells. Sizes the workspace anew if the set of
+/// cells changed. Then updates sleep (sleep.hpp) and zoom (zoom/update.hpp), and repairs degenerate
+/// meshes (mesh_health.hpp). The clock does not advance.
 LifeReport live(World& world, Workspace& work);
 
-/// Removes those of the cells that dissolve. Their membrane gives way to the last, so a step that
-/// fails at them ends what is left of them, not the run.
-/// @param why  as the step said it
-/// @return without events: none of them dissolves
+/// Removes those of the cells that are in lysis. Their membrane softens to the end, so a step that
+/// fails at them ends their lysis, not the run.
+/// @param why  cause of the failure
+/// @return empty if none of them is in lysis
 LifeReport remove_dying(World& world, Workspace& work, std::span<const std::int64_t> cells,
                         const std::string& why);
 
-/// Time to the next point on the grids of rules, sleep and zoom, at which a step has to end, s;
-/// infinite without any. Division, removal and mesh repair are looked for after every step.
+/// Time to the next point on the grids of rules, sleep and zoom, s, where a step has to end;
+/// infinite without any. Division, removal and mesh repair are checked after every step.
 double time_to_event(const World& world);
 
 }  // namespace acinus::coupling

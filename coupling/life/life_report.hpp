@@ -1,5 +1,5 @@
 #pragma once
-/// Events between two steps: divisions, deaths, better meshes, changes of model.
+/// Report of events between two steps: divisions, deaths, mesh repair, changes of model.
 
 #include <cstdint>
 #include <string>
@@ -10,19 +10,19 @@
 
 namespace acinus::coupling {
 
-/// One event of life or of the zoom, for the run file.
+/// Event of life or of the zoom, for the run file.
 struct LifeEvent {
   EventKind kind{};
-  std::vector<std::int64_t> cells;  ///< of a division: mother, daughter, daughter
+  std::vector<std::int64_t> cells;  ///< lineages; division: mother, daughter, daughter
   std::string message;
 };
 
-/// Events between two steps.
+/// Report of the events between two steps.
 struct LifeReport {
   std::vector<LifeEvent> events;
   std::vector<DivisionFigures> divisions;  ///< of deformable cells
-  /// The process was asked to stop meanwhile: what was begun is undone, Clock::due says what is
-  /// left to do. live() is to be called again before the next step.
+  /// True if the process was asked to stop: started events are undone and Clock::due has the
+  /// pending ones. Call live() again before the next step.
   bool interrupted = false;
 };
 

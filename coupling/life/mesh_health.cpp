@@ -31,16 +31,15 @@ const geometry::Topology& topology_of(const State& s, std::size_t lane) {
   return *s.dcm.group[lane / kLanes].topology;
 }
 
-/// Cells whose meshes are due for a check: none, those that have not forgotten the shape they were
-/// given, or all. Follows from the clock alone, so a resumed run checks at the same times as one
-/// that was never stopped.
+/// Set of meshes due for a check: none, those that still relax from a given shape, or all. Depends
+/// on the clock alone, so a resumed run checks at the same times.
 enum class Due { kNone, kYoung, kAll };
 Due find_due(const State& s, double grid) {
   if (s.clock.phase != Phase::kRun || !(s.clock.last_step > 0)) return Due::kNone;
   return crosses_grid(time_of(s) - s.clock.last_step, time_of(s), grid) ? Due::kAll : Due::kYoung;
 }
 
-/// Area over what the cell's membrane takes for rest at this moment.
+/// Area over the present rest area of the membrane.
 double find_stretch(const State& s, std::size_t lane, const std::vector<Vec3>& node) {
   const geometry::Topology& t = topology_of(s, lane);
   const double radius = reference_radius(s, lane), time = s.clock.time;
@@ -49,7 +48,7 @@ double find_stretch(const State& s, std::size_t lane, const std::vector<Vec3>& n
   return geometry::compute_area(node, t.triangle) / (t.rest_area * radius * radius * rest);
 }
 
-/// How much longer links are than at rest, all together.
+/// Mean stretch of the links: total length over total rest length.
 double find_link_stretch(const State& s, std::size_t lane, std::span<const double> ratio) {
   const dcm::BirthShape& b = s.dcm.birth[lane];
   const double time = s.clock.time, weight = b.is_forgotten(time) ? 0 : b.weight.at(time);
@@ -61,9 +60,9 @@ double find_link_stretch(const State& s, std::size_t lane, std::span<const doubl
   return present / rest;
 }
 
-/// Turns the nucleus with the new mesh of its cortex and keeps the mean stretch of its links.
-/// @param old  [n_node] um, of the cortex, whose new nodes are in place already
-/// @return     lengths of the links at rest, for the cell's birth shape; empty: there is no nucleus
+/// Rotates the nucleus with the new mesh of its cortex and keeps the mean stretch of its links.
+/// @param old  [n_node] um, old nodes of the cortex, whose new ones are in place
+/// @return rest lengths of the links for the birth shape of the cell; empty without a nucleus
 std::vector<double> adapt_nucleus(const dcm::Params& params, std::size_t lane,
                                   const std::vector<Vec3>& old, const std::vector<Vec3>& node,
                                   State& s) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Finds deformable cells whose mesh degenerates and gives them a better one (mesh_remedy.hpp).
+/// Detection and repair of degenerate meshes (mesh_remedy.hpp).
 
 #include <cstddef>
 #include <vector>
@@ -10,19 +10,20 @@
 
 namespace acinus::coupling {
 
-/// Lanes of the cells with a suspicious mesh, ascending. One pass over their triangles, on all
-/// threads.
-/// @param only_young  only cells that have not forgotten the shape they were given
+/// Finds lanes with a suspicious mesh, ascending. One pass over all triangles, on all threads.
+/// @param only_young  true: only cells that still relax from a given shape
 std::vector<std::size_t> find_suspicious(const State& state, bool only_young = false);
 
-/// Checks all meshes if the last step crossed the time grid of life, else those of cells that have
-/// not forgotten the shape they were born with, and mends what is suspicious. Daughters slide along
-/// each other by up to the length of an edge while they settle; a triangle that collapses then
-/// folds the cell within minutes. A mended cell has its old volume and the mean tension of its old
-/// surface: its cortex takes the new mesh for rest and forgets that within an hour, as after a
-/// division. It and its neighbours then settle while all others stand still. What cannot be mended
-/// is left as it is and named once a grid interval. Nothing at all changes while all meshes are
-/// sound. The workspace is sized anew when a cell was mended.
+/// Checks meshes and repairs suspicious ones. All cells are checked if the last step crossed the
+/// time grid of life, else only cells that still relax from their shape of birth: settling
+/// daughters slide along each other by up to an edge length, and a collapsed triangle folds the
+/// cell within minutes.
+///
+/// A repaired cell keeps its volume and the mean tension of its surface. The new mesh becomes the
+/// rest shape of the cortex, which relaxes from it within an hour, as after a division. The cell
+/// and its neighbours settle with all others fixed. A mesh that cannot be repaired is unchanged and
+/// reported once per grid interval. Nothing changes while all meshes are sound. Sizes the workspace
+/// anew after a repair.
 void mend_meshes(World& world, Workspace& work, LifeReport& report);
 
 }  // namespace acinus::coupling

@@ -16,7 +16,7 @@ double axis_distance(const Proliferation& p, const Vec3& x) {
   return std::hypot(x.x() - p.axis_point.x(), x.y() - p.axis_point.y());
 }
 
-/// Rate at which cells of a layer enter the cycle now, 1/s.
+/// Present rate of entry into the cycle in a layer, 1/s.
 double entry_rate(const Proliferation& p, int layer, double time) {
   double sum = 0;
   for (const EntryRate& r : p.rate)

@@ -13,10 +13,10 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr double kDoubled = 1 - 1e-9;  ///< share of twice the birth volume that counts as reached
+constexpr double kDoubledShare = 1 - 1e-9;  ///< of twice the birth volume at division
 
 bool has_doubled(const State& s, const Cell& c) {
-  return volume_of(s, c).at(s.clock.time) >= 2 * s.cycle[c.index].birth_volume * kDoubled;
+  return volume_of(s, c).at(s.clock.time) >= 2 * s.cycle[c.index].birth_volume * kDoubledShare;
 }
 
 bool applies(const LifeParams& p, std::size_t number, const State& s, const Cell& c) {
@@ -41,9 +41,9 @@ bool needs_loads(const CycleParams& p) {
   return p.inhibition.by == InhibitedBy::kPressure || p.inhibition.by == InhibitedBy::kVolume;
 }
 
-/// What inhibition looks at, [dcm lanes, then cbm cells]. That of sleepers too: they may grow when
-/// a rule ends.
-std::vector<Crowding> find_crowding(const World& world, Workspace& work) {
+/// Input of contact inhibition, [dcm lanes, then cbm cells]; sleepers included, since they may grow
+/// at the end of a rule.
+std::vector<Crowding> measure_crowding(const World& world, Workspace& work) {
   const State& s = world.state;
   std::vector<Crowding> now(s.cycle.size());
   const auto asks = [&](auto question) {
@@ -70,7 +70,7 @@ std::vector<double> growth_factors(const World& world, Workspace& work) {
   const State& s = world.state;
   std::vector<double> factor(s.cycle.size(), 1.0);
   if (std::ranges::none_of(world.params.life.type, is_inhibited)) return factor;
-  const std::vector<Crowding> now = find_crowding(world, work);
+  const std::vector<Crowding> now = measure_crowding(world, work);
   for_each_cell(s, [&](const Cell& c) {
     factor[c.index] = growth_factor(cycle_of(world.params, s, c).inhibition, now[c.index]);
   });

@@ -1,5 +1,5 @@
 #pragma once
-/// Which cells are to divide, die or rest now.
+/// Rules of life: cells due to divide, die or rest.
 
 #include <vector>
 
@@ -9,30 +9,30 @@
 
 namespace acinus::coupling {
 
-/// Whether any cell can ever grow or die.
+/// True if any cell can ever grow or die.
 bool has_life(const Params& params);
 
 /// Draws cycle times and starts growth. Call once, at t = 0.
 void begin_life(World& world);
 
-/// Time until rules or inhibition are looked at again, s; infinite where there are none.
+/// Time to the next update of rules or inhibition, s; infinite without any.
 double time_to_life_event(const World& world);
 
-/// Starts or stops the growth of a cell in its cycle as the rules say.
+/// Starts or stops the growth of a cell in its cycle by the rules.
 /// @param factor  of growth_factor
 void set_growth(const Params& params, State& state, const Cell& cell, double factor);
 
-/// Whether a deformable cell is as large as those that divide, whatever rules say about it.
+/// True if a deformable cell has the size of division, regardless of rules.
 bool has_doubled_shell(const State& state);
 
-/// What is to happen to cells now.
+/// Cells due for an event.
 struct Plan {
   std::vector<Cell> divide, remove, lyse;
   bool empty() const { return divide.empty() && remove.empty() && lyse.empty(); }
 };
 
-/// Applies rules and inhibition if their time grid was crossed, and finds the cells that have
-/// doubled or shrunk to their end.
+/// Applies rules and inhibition if their time grid was crossed, and lists the cells that have
+/// doubled, died or ended their lysis.
 Plan make_plan(World& world, Workspace& work);
 
 }  // namespace acinus::coupling

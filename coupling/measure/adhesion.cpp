@@ -9,7 +9,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// Range of the cohesive potential of the cell that probes, um.
+/// Range of the cohesive potential of the probing cell, um.
 double range_of(const World& world, const Workspace& w, int body) {
   const std::size_t b = body;
   return world.params.dcm_contact.range_factor * w.dcm.body[b].topology->mean_rest_length *
@@ -21,7 +21,7 @@ bool adheres(const World& world, const Workspace& w, const contact::Contact& k) 
   return k.partner == contact::Partner::kSurface && !k.is_fold() && k.gap < range_of(world, w, k.a);
 }
 
-/// Area of a contact that adheres, um^2.
+/// Adhering area of a contact, um^2.
 double area_of(const World& world, const Workspace& w, const contact::Contact& k) {
   const dcm::ContactParams& options = world.params.dcm_contact;
   if (dcm::is_between_triangles(options, k)) return k.touching;
@@ -32,7 +32,7 @@ double area_of(const World& world, const Workspace& w, const contact::Contact& k
 
 }  // namespace
 
-Adhesion find_adhesion(const World& world, const Workspace& w) {
+Adhesion measure_adhesion(const World& world, const Workspace& w) {
   const dcm::ContactParams& options = world.params.dcm_contact;
   std::vector<std::size_t> first{0};
   for (const contact::SurfaceBody& b : w.dcm.body) first.push_back(first.back() + b.node.size());
@@ -58,8 +58,8 @@ bool any_adhesion(const World& world, const Workspace& w) {
                              [&](const contact::Contact& k) { return adheres(world, w, k); });
 }
 
-ContactTensions find_contact_tensions(const std::vector<double>& tension,
-                                      const Adhesion& adhesion) {
+ContactTensions compute_contact_tensions(const std::vector<double>& tension,
+                                         const Adhesion& adhesion) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   double sum[2] = {0, 0};
   int n[2] = {0, 0};

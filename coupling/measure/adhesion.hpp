@@ -1,5 +1,5 @@
 #pragma once
-/// Where deformable cells adhere to each other.
+/// Adhesion between deformable cells.
 
 #include <cstdint>
 #include <vector>
@@ -9,26 +9,28 @@
 
 namespace acinus::coupling {
 
-/// The contact of deformable cells with each other. A point is in it while it is within the range
-/// of the cohesive potential of another cell, whether it attracts or presses there; with the law of
-/// Maugis-Dugdale triangles are, where they push or pull.
+/// Contact region of deformable cells. Points within the range of the cohesive potential of another
+/// cell belong to it, in attraction or repulsion. With the law of Maugis-Dugdale it consists of the
+/// triangles with a contact force.
 struct Adhesion {
-  double area = 0;  ///< um^2 of the reference surfaces, half of it from either side;
+  double area = 0;  ///< um^2 of the reference surfaces, half from either side;
                     ///< Maugis-Dugdale: of the contact planes
-  /// [nodes of the deformable cells, body by body] 1: part of a point in contact.
+  /// [nodes of the deformable cells, body by body] 1: part of a point in contact
   std::vector<std::uint8_t> node;
 };
-Adhesion find_adhesion(const World& world, const Workspace& work);  ///< @pre observe
+Adhesion measure_adhesion(const World& world, const Workspace& work);  ///< @pre observe
 
-/// Tensions of the surfaces in and out of contact, nN/um: means over nodes, and the least in
-/// contact; NaN where there is no such node.
+/// Surface tensions in and out of contact, nN/um: means over nodes, and the least in contact; NaN
+/// without nodes.
 struct ContactTensions {
   double outside = 0, contact = 0, least = 0;
 };
+/// Computes tensions in and out of contact.
 /// @param tension  [nodes] nN/um, of measure_nodes
-ContactTensions find_contact_tensions(const std::vector<double>& tension, const Adhesion& adhesion);
+ContactTensions compute_contact_tensions(const std::vector<double>& tension,
+                                         const Adhesion& adhesion);
 
-/// Whether any two deformable cells adhere or press, at the contacts that were searched last.
+/// True if any two deformable cells adhere or press in the contacts searched last.
 bool any_adhesion(const World& world, const Workspace& work);
 
 }  // namespace acinus::coupling

@@ -17,8 +17,8 @@
 namespace acinus::coupling {
 namespace {
 
-/// Sisters are born 2 (R_m - R_d) apart (cbm::divide), here in radii of cells about to divide: as
-/// they grow where they are, they may come to no less.
+/// Least distance of sisters, in radii of cells about to divide: they are born 2 (R_m - R_d) apart
+/// (cbm::divide) and grow in place.
 const double kSisterDistance = 2 - std::cbrt(4.0);
 
 double sphere_depth(const geometry::AuditBody& cell, const AuditSphere& sphere) {
@@ -31,7 +31,7 @@ void keep_worst(WorstPair& worst, double depth, std::int64_t a, std::int64_t b) 
   if (depth > worst.depth_um) worst = {depth, {a, b}};
 }
 
-/// A depth that ought not to be, of a pair with or without a newborn cell.
+/// Records a forbidden depth of a pair, with or without a newborn cell.
 void keep_penetration(AuditResult& result, double depth, bool newborn) {
   result.max_penetration_um = std::max(result.max_penetration_um, depth);
   if (!newborn) result.max_penetration_grown_um = std::max(result.max_penetration_grown_um, depth);
@@ -43,7 +43,7 @@ void check_finite(std::span<const Vec3> nodes, const std::string& what) {
           Exit::kCannotContinue);
 }
 
-/// The bodies of a frame that are made for it.
+/// Bodies prepared for a frame.
 struct Bodies {
   std::vector<geometry::AuditBody> cell;
   std::vector<RoundCone> cone;
@@ -67,7 +67,7 @@ Bodies prepare(const AuditFrame& frame) {
   return bodies;
 }
 
-/// f(k) for all k < n, each worked out by one process, known to all.
+/// Calls f(k) for all k < n, distributed over the processes, and gathers the results in all.
 template <class T, class F>
 std::vector<T> share_among(const Ranks& ranks, std::size_t n, const F& f) {
   const auto n_rank = static_cast<std::size_t>(ranks.size()),
@@ -95,7 +95,7 @@ void audit_shapes(const AuditFrame& frame, const Bodies& bodies, const Ranks& ra
   }
 }
 
-/// Walls and envelopes: every cell has to be on their good side, near or not.
+/// Walls and envelopes: every cell has to be on their allowed side, near or not.
 void audit_walls(const AuditFrame& frame, const Bodies& bodies, AuditResult& result) {
   for (std::size_t c = 0; c < bodies.cell.size(); ++c) {
     const AuditMesh& cell = frame.meshes[c];
@@ -117,7 +117,7 @@ void audit_walls(const AuditFrame& frame, const Bodies& bodies, AuditResult& res
   }
 }
 
-/// How far a sphere reaches beyond the surface of a closed body on the forbidden side.
+/// Depth of a sphere beyond the surface of a closed body on the forbidden side, um.
 double depth_in_fixed(const AuditSphere& sphere, const geometry::AuditBody& fixed,
                       geometry::Location forbidden) {
   const double distance = fixed.distance(sphere.center);

@@ -8,7 +8,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// Where between two neighbouring crossings a passing edge is probed.
+/// Probe positions of a passing edge between two neighbouring crossings.
 constexpr std::array<double, 3> kProbe{0.25, 0.5, 0.75};
 
 /// Calls f(point on a-b) at probes of every piece between neighbouring crossings.
@@ -19,7 +19,7 @@ void probe_pieces(const Vec3& a, const Vec3& b, const std::vector<double>& cross
       f(Vec3(a + (crossing[c] + probe * (crossing[c + 1] - crossing[c])) * (b - a)));
 }
 
-/// Depth of the volume centroid of `a` if it lies in both bodies, um.
+/// Depth of the volume centroid of `a` if it is inside both bodies, um.
 double common_centroid_depth(const geometry::AuditBody& a, const geometry::AuditBody& b) {
   if (a.locate(a.centroid) != geometry::Location::kInside ||
       b.locate(a.centroid) != geometry::Location::kInside)
@@ -27,9 +27,9 @@ double common_centroid_depth(const geometry::AuditBody& a, const geometry::Audit
   return std::min(a.distance(a.centroid), b.distance(a.centroid));
 }
 
-/// The point of segment p-q nearest to segment a-b. With one segment's parameter fixed the other's
-/// best is a clamped projection; the pair that minimises is found from the unclamped solution in
-/// two rounds.
+/// Point of segment p-q nearest to segment a-b. With the parameter of one segment fixed, the best
+/// of the other is a clamped projection; two rounds from the unclamped solution give the minimising
+/// pair.
 Vec3 nearest_on_segment(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
   const Vec3 u = q - p, v = b - a, w = p - a;
   const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();

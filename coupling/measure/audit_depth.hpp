@@ -1,5 +1,5 @@
 #pragma once
-/// How deep two bodies are in each other, as the audit measures it.
+/// Depth of two bodies in each other for the audit.
 
 #include "core/box.hpp"
 #include "core/vec.hpp"
@@ -7,14 +7,14 @@
 
 namespace acinus::coupling {
 
-/// Deepest point of the surface of `a` on the forbidden side of `b`, um.
+/// Largest depth of the surface of `a` on the forbidden side of `b`, um.
 double surface_depth(const geometry::AuditBody& a, const geometry::AuditBody& b,
                      geometry::Location forbidden);
 
-/// The same both ways, and of a volume centroid that lies in both.
+/// Largest depth both ways, and of a volume centroid inside both, um.
 double body_depth(const geometry::AuditBody& a, const geometry::AuditBody& b);
 
-/// The balls along a straight axis.
+/// Round cone: balls along a straight axis.
 struct RoundCone {
   Vec3 a, b;
   double radius_a, radius_b;
@@ -22,10 +22,10 @@ struct RoundCone {
   double radius(double t) const { return radius_a + t * (radius_b - radius_a); }
 };
 
-/// Depth below the surface of the balls along the axis: max over t of r(t) - |p - c(t)|, um.
+/// Depth of a point below the surface of a round cone: max over t of r(t) - |p - c(t)|, um.
 double cone_depth(const RoundCone& cone, const Vec3& p);
 
-/// Of a cell in a vessel, um.
+/// Depth of a cell in a vessel, um.
 double vessel_depth(const geometry::AuditBody& cell, const RoundCone& cone);
 
 }  // namespace acinus::coupling

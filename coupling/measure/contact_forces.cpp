@@ -14,7 +14,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// Where cells are: surfaces first, then spheres, as measure_cells lists them.
+/// Centres of cells: surfaces first, then spheres, in the order of measure_cells.
 struct Places {
   const World& world;
   const Workspace& w;
@@ -32,7 +32,7 @@ struct Places {
     return contact::point_position(body, dcm::stencil_of(world.params.dcm_contact, body, k));
   }
 
-  /// Spheres meet in the middle of their overlap; with an obstacle it is the obstacle's surface.
+  /// Point of contact: the middle of the overlap of two spheres, the surface of an obstacle.
   void set_arms_of_sphere(const contact::Contact& k, ContactForce& f) const {
     const std::vector<double>& radius = w.cbm_radius;
     const bool pair = k.partner == contact::Partner::kSphere;
@@ -51,7 +51,7 @@ struct Places {
 };
 
 void visit_fading(const World& world, const Places& places,
-                  const std::function<void(const ContactForce&)>& look) {
+                  const std::function<void(const ContactForce&)>& visit) {
   const State& s = world.state;
   if (s.fading.empty()) return;
   std::unordered_map<std::int64_t, std::size_t> number;
@@ -77,14 +77,14 @@ void visit_fading(const World& world, const Places& places,
       f.arm_b = f.arm_a + apart;
     }
     f.fades = true;
-    look(f);
+    visit(f);
   }
 }
 
 }  // namespace
 
 void visit_contacts(const World& world, const Workspace& w,
-                    const std::function<void(const ContactForce&)>& look) {
+                    const std::function<void(const ContactForce&)>& visit) {
   const Places places(world, w);
   const std::size_t n_body = w.dcm.body.size();
   for (const contact::Contact& k : w.contacts.all) {
@@ -106,12 +106,12 @@ void visit_contacts(const World& world, const Workspace& w,
       places.set_arms_of_sphere(k, f);
     else
       places.set_arms_of_surface(k, f);
-    look(f);
+    visit(f);
   }
-  visit_fading(world, places, look);
+  visit_fading(world, places, visit);
 }
 
-Reactions find_reactions(const World& world, const Workspace& w) {
+Reactions compute_reactions(const World& world, const Workspace& w) {
   const contact::Boundary& boundary = world.params.boundary;
   Reactions r;
   const auto part_of = [&r](contact::Partner kind) -> std::vector<Reaction>& {

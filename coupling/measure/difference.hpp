@@ -1,5 +1,5 @@
 #pragma once
-/// How far two results of the same cells are apart.
+/// Differences between two results of the same cells.
 
 #include <span>
 
@@ -7,20 +7,20 @@
 
 namespace acinus::coupling {
 
-/// Root mean square of the differences over that of the reference. 0 where nothing differs,
-/// infinite or NaN where the reference is zero and something does or a value is not finite.
-/// @pre   as many values as reference values
+/// Root mean square of the differences over that of the reference. 0 for equal values; infinite or
+/// NaN if the reference is 0 and values differ, or a value is not finite.
+/// @pre as many values as reference values
 double relative_error(std::span<const double> value, std::span<const double> reference);
 
-/// Distances between points that belong together, um.
+/// Distances between corresponding points, um.
 struct Distance {
   double max = 0, rms = 0;
 };
 
-/// Distances left after the rigid motion (no reflection) that brings the points closest to the
-/// reference in the sense of least squares [Kabsch1976]. A cluster that has moved or turned as a
-/// whole has not changed: nothing holds it in place.
-/// @pre   as many points as reference points, all finite
+/// Distances between corresponding points after the rigid motion (no reflection) that fits them to
+/// the reference by least squares [Kabsch1976]. Rigid motion of a cluster does not count, since
+/// nothing fixes it.
+/// @pre as many points as reference points, all finite
 Distance aligned_distance(std::span<const Vec3> point, std::span<const Vec3> reference);
 
 }  // namespace acinus::coupling

@@ -19,12 +19,13 @@
 namespace acinus::coupling {
 namespace {
 
-/// Reference values a step of this length ahead are those of now, to rounding.
+/// Step length, s, of an assembly for measures: reference values do not change over it, to
+/// rounding.
 constexpr double kNow = 1e-9;
-/// A cell this old has settled in its place, s.
+/// Age, s, after which a cell counts as settled.
 constexpr double kNewborn = 600;
 
-/// The process that measures a cell, by its number among measures.
+/// Process that measures a cell, by index among measures.
 int owner_of(const Workspace& w, std::size_t cell) {
   const std::size_t n_body = w.dcm.body.size();
   const std::size_t lane = cell < n_body ? w.dcm.lane_of_body[cell] : w.dcm_lanes + cell - n_body;
@@ -65,7 +66,7 @@ CellMeasure measure_surface(const World& world, const Workspace& w, std::size_t 
   m.cytosol_pressure = dcm::cytosol_pressure(world.params.dcm[m.type].bulk_modulus, m.volume,
                                              sphere_volume(m.radius));
   m.migration_force = w.forces.dcm[lane].norm();
-  // Points stand for shares of the reference surface; what is measured is the present one.
+  // Points have shares of the reference surface, scaled here to the present one.
   const std::vector<double>& share = w.dcm.share[body];
   double touching = 0, whole = 0;
   for (std::size_t p = 0; p < share.size(); ++p) {
@@ -98,17 +99,17 @@ CellMeasure measure_sphere(const World& world, const Workspace& w, std::size_t c
   return m;
 }
 
-/// Adds what contacts exert: stress, forces, numbers of contacts.
+/// Adds contact forces: stress, force sums, numbers of contacts.
 void add_contacts(const World& world, const Workspace& w, std::vector<CellMeasure>& cells) {
   auto press = [&](std::size_t cell, const Vec3& force, const Vec3& arm) {
     add_stress(cells[cell], sphere_volume(cells[cell].radius), force, arm);
   };
   struct PairSum {
-    Vec3 force = Vec3::Zero();  ///< nN, on the first
+    Vec3 force = Vec3::Zero();  ///< nN, on the first cell
     bool touching = false;
   };
   std::map<std::pair<std::size_t, std::size_t>, PairSum> pair_force;
-  /// nN, of each part of the boundary on each cell
+  /// nN, force of each part of the boundary on each cell
   std::map<std::tuple<std::size_t, contact::Partner, int>, Vec3> boundary_force;
   visit_contacts(world, w, [&](const ContactForce& c) {
     press(c.a, c.force, c.arm_a);

@@ -6,7 +6,7 @@
 
 namespace acinus::coupling {
 
-NucleusLeak find_nucleus_leak(const State& s) {
+NucleusLeak measure_nucleus_leak(const State& s) {
   NucleusLeak worst;
   std::vector<Vec3> cortex, nucleus;
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) {

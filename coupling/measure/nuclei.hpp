@@ -1,5 +1,5 @@
 #pragma once
-/// Whether nuclei are where they belong.
+/// Check of nuclei outside their cortex.
 
 #include <cstdint>
 
@@ -7,13 +7,14 @@
 
 namespace acinus::coupling {
 
-/// The node of a nucleus that is farthest outside its cortex.
+/// Nucleus node farthest outside its cortex.
 struct NucleusLeak {
-  double depth_um = 0;  ///< outside; 0: none is
+  double depth_um = 0;  ///< distance outside; 0: none
   std::int64_t cell = -1;
 };
 
-/// Shares no code with the contact search (geometry/audit_body.hpp).
-NucleusLeak find_nucleus_leak(const State& state);
+/// Measures the deepest node of a nucleus outside its cortex, without code shared with the contact
+/// search (geometry/audit_body.hpp).
+NucleusLeak measure_nucleus_leak(const State& state);
 
 }  // namespace acinus::coupling

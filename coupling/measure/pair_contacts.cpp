@@ -20,7 +20,7 @@ std::vector<InterfaceForce> interface_forces(const World& world, const Workspace
       compute_interface_forces(contact_input(world, world.state, phase, 0, w), w.dcm, w.contacts);
   const solve::Ownership& ownership = w.system.ownership;
   if (ownership.is_whole()) return forces;
-  // Each by the owner of its deformable cell, in the order of these.
+  // Each pair comes from the owner of its deformable cell, in the order of these cells.
   const CellIndex cells = index_cells(world.state);
   const auto lane_of = [&cells](const InterfaceForce& f) { return cells.at(f.dcm_id).at; };
   std::erase_if(forces, [&](const InterfaceForce& f) { return w.dcm.is_ghost(lane_of(f)); });

@@ -8,12 +8,12 @@
 
 namespace acinus::coupling {
 
-/// Forces between deformable cells and spheres, per pair of cells, of all processes.
+/// Net forces per pair of a deformable cell and a sphere, over all processes.
 /// @pre assemble
 std::vector<InterfaceForce> interface_forces(const World& world, const Workspace& work);
 
-/// Appends the contacts between spheres to the list of contacts; a step does not need them one by
-/// one.   @pre assemble
+/// Appends the contacts between spheres to the list; a step does not need them individually.   @pre
+/// assemble
 void list_sphere_pairs(const World& world, Workspace& work);
 
 /// Stencil of the unknowns of both sides of a contact.   @pre assemble

@@ -10,29 +10,31 @@
 namespace acinus::coupling {
 namespace {
 
-/// A leader keeps its place until another cell is nearer by this share of its radius.
-constexpr double kSlack = 1.0 / 6;
-/// A cell closer than this many of its radii to another cell's straight way to the vein bars it.
-/// Cells side by side are two radii apart and do not bar each other, a cell behind the gap between
-/// two is barred by both from 1.15 radii (three in a triangle) on.
-constexpr double kBar = 1.3;
-/// A cell borders on the lesion if a way this many radii long, or to the vein, is clear, in a
-/// direction at most kAside from that to the vein; smaller holes in the tissue are not the lesion.
-constexpr double kLeaderReach = 4, kAside = kPi / 4;
-constexpr int kWays = 7;  ///< directions tried, 15 degrees apart
+/// Hysteresis: share of its radius by which another cell has to be nearer to replace a leader.
+constexpr double kLeaderHysteresis = 1.0 / 6;
+/// Obstruction radius of a cell on a straight path to the vein, in its radii. Cells side by side
+/// are two radii apart and do not obstruct each other; a cell behind the gap between two is
+/// obstructed by both from 1.15 radii (three in a triangle) on.
+constexpr double kObstruction = 1.3;
+/// Length of an unobstructed path into the lesion, in radii, and its largest angle from the
+/// direction of the vein. Smaller holes in the tissue are not the lesion.
+constexpr double kLeaderReach = 4, kLargestPathAngle = kPi / 4;
+constexpr int kPaths = 7;  ///< directions tried, 15 degrees apart
 
 double turn(const PolarCell& a, const PolarCell& b) {
   return std::abs(std::remainder(a.angle - b.angle, 2 * kPi));
 }
 
-/// Distance from the vein by which cells are ranked.
-double rank_distance(const PolarCell& c) { return c.distance - (c.led ? kSlack * c.radius : 0); }
+/// Distance from the vein that ranks cells.
+double rank_distance(const PolarCell& c) {
+  return c.distance - (c.led ? kLeaderHysteresis * c.radius : 0);
+}
 
 bool at_vein(const Motility& m, const PolarCell& c) {
   return c.distance <= m.axis_radius + c.radius;
 }
 
-/// Whether no other cell is nearer within one diameter in arc and in height.
+/// True if no other cell is nearer within one diameter in arc and in height.
 bool is_foremost(const PolarCell& c, std::span<const PolarCell> cells) {
   const double diameter = 2 * c.radius;
   return std::ranges::none_of(cells, [&](const PolarCell& other) {
@@ -41,29 +43,30 @@ bool is_foremost(const PolarCell& c, std::span<const PolarCell> cells) {
   });
 }
 
-/// Whether the horizontal straight way from the cell's centre to the vein axis is clear of others.
+/// True if the horizontal straight path from the centre of a cell to the vein axis is clear of
+/// others.
 bool faces_lesion(const PolarCell& c, std::span<const PolarCell> cells) {
   return std::ranges::none_of(cells, [&](const PolarCell& other) {
     if (&other == &c || !other.exists || other.distance >= rank_distance(c)) return false;
     const double angle = turn(other, c);
     if (angle >= kPi / 2) return false;
     const double aside = other.distance * std::sin(angle), above = other.height - c.height;
-    return std::hypot(aside, above) < kBar * other.radius;
+    return std::hypot(aside, above) < kObstruction * other.radius;
   });
 }
 
-/// Horizontal position with respect to the vein axis, and height.
+/// Position relative to the foot of the vein axis, um.
 Vec3 place_of(const PolarCell& c) {
   return {c.distance * std::cos(c.angle), c.distance * std::sin(c.angle), c.height};
 }
 
-/// Whether some way from a cell toward the lesion is clear of other cells and of walls.
+/// True if a path from a cell into the lesion is clear of other cells and of walls.
 /// @param place  place_of every cell
 bool borders_lesion(const Motility& m, std::size_t own, std::span<const PolarCell> cells,
                     std::span<const Vec3> place, std::span<const contact::Plane> walls) {
   const PolarCell& c = cells[own];
   const Vec3 from = place[own];
-  const double bar = kBar - (c.led ? kSlack : 0);
+  const double bar = kObstruction - (c.led ? kLeaderHysteresis : 0);
   const double reach =
       std::min(kLeaderReach * c.radius, c.distance - m.axis_radius);  // to the vein
   auto is_clear = [&](const Vec3& direction) {
@@ -80,8 +83,8 @@ bool borders_lesion(const Motility& m, std::size_t own, std::span<const PolarCel
     }
     return true;
   };
-  for (int k = 0; k < kWays; ++k) {
-    const double turned = c.angle + kPi + kAside * (2.0 * k / (kWays - 1) - 1);
+  for (int k = 0; k < kPaths; ++k) {
+    const double turned = c.angle + kPi + kLargestPathAngle * (2.0 * k / (kPaths - 1) - 1);
     if (is_clear({std::cos(turned), std::sin(turned), 0})) return true;
   }
   return false;
@@ -96,7 +99,7 @@ void lead_at_border(const Motility& m, std::span<const PolarCell> cells,
       leader[i] = 1;
 }
 
-/// The nearest cell of every sector of the circle and slice of height.
+/// Marks the nearest cell of every sector of the circle and slice of height.
 void lead_by_sector(const Motility& m, std::span<const PolarCell> cells,
                     std::vector<std::uint8_t>& leader) {
   std::map<std::pair<int, int>, std::size_t> first;
@@ -112,7 +115,7 @@ void lead_by_sector(const Motility& m, std::span<const PolarCell> cells,
   for (const auto& [where, i] : first) leader[i] = 1;
 }
 
-/// The `leader_count` nearest cells of all.
+/// Marks the `leader_count` nearest cells.
 void lead_nearest(const Motility& m, std::span<const PolarCell> cells,
                   std::vector<std::uint8_t>& leader) {
   std::vector<std::size_t> order;

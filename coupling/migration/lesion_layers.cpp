@@ -26,7 +26,7 @@ int local_layer_of(const LayerCell& cell, std::span<const LayerCell> cells,
                  std::lround(distance_to_edge(cell, cells, axis_point) / (2 * cell.radius)));
 }
 
-std::vector<int> find_layers(std::span<const LayerCell> cells, const Vec3& axis_point) {
+std::vector<int> compute_layers(std::span<const LayerCell> cells, const Vec3& axis_point) {
   std::vector<int> layer;
   for (const LayerCell& c : cells) layer.push_back(local_layer_of(c, cells, axis_point));
   return layer;

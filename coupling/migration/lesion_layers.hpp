@@ -1,5 +1,5 @@
 #pragma once
-/// How many cells deep a cell lies behind the edge of a lesion round a vertical axis.
+/// Layers of cells behind the edge of a lesion around a vertical axis.
 
 #include <span>
 #include <vector>
@@ -13,9 +13,9 @@ struct LayerCell {
   double radius = 0;           ///< um
 };
 
-/// How far a cell lies behind the edge of the lesion, um: its distance from the axis less that of
-/// the edge before it. The edge before it is the smallest distance among cells, itself included,
-/// less than one diameter away in arc (at the cell's own distance) and in height.
+/// Distance of a cell behind the edge of the lesion, um: its distance from the axis minus that of
+/// the edge in front of it. That edge is the smallest distance among the cells, itself included,
+/// within one diameter in arc (at its own distance) and in height.
 double distance_to_edge(const LayerCell& cell, std::span<const LayerCell> cells,
                         const Vec3& axis_point);
 
@@ -24,7 +24,7 @@ double distance_to_edge(const LayerCell& cell, std::span<const LayerCell> cells,
 /// @param axis_point  the axis is vertical through it
 int local_layer_of(const LayerCell& cell, std::span<const LayerCell> cells, const Vec3& axis_point);
 
-/// That of every cell. Cost: all pairs.
-std::vector<int> find_layers(std::span<const LayerCell> cells, const Vec3& axis_point);
+/// Layers of all cells. Cost: all pairs.
+std::vector<int> compute_layers(std::span<const LayerCell> cells, const Vec3& axis_point);
 
 }  // namespace acinus::coupling

@@ -14,7 +14,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// Below this many cells starting threads costs more than it saves.
+/// Number of cells below which threads cost more than they save.
 constexpr std::size_t kParallelCells = 1000;
 
 Vec3 toward_axis(const Motility& m, const Vec3& center) {
@@ -31,7 +31,7 @@ void choose_step_leaders(const World& world, const State& at, Workspace& w) {
     choose_leaders(world.params, at, w.lanes.radius, w.cbm_radius, w.leader, w.leader_interval);
 }
 
-/// Friction of every cell with the medium as a whole, nN s/um.
+/// Total friction of every cell with the medium, nN s/um.
 void sum_medium_friction(const World& world, const InterfaceInput& in, Workspace& w) {
   constexpr double kOfOtherProcess = -1;
   const dcm::State& shells = in.dcm.state;

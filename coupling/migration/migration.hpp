@@ -1,6 +1,6 @@
 #pragma once
-/// Forces on whole cells: random motility, the pull of leaders toward the vein, constant pulls,
-/// those of devices and those that fade.
+/// Active forces on whole cells: random motility, the directed force of leaders toward the vein,
+/// constant forces, those of devices and fading forces.
 
 #include <cstdint>
 
@@ -10,13 +10,13 @@
 
 namespace acinus::coupling {
 
-/// Mean of the random force's unit normals over [time, time + step]. The force is constant on each
-/// interval of the grid, so any sequence of steps that covers the same time gives the same impulse:
-/// rejected steps leave no trace.
+/// Mean of the unit random force over [time, time + step]. The force is constant on each interval
+/// of its time grid, so any sequence of steps over the same time gives the same impulse, also after
+/// rejected attempts.
 Vec3 mean_random(std::uint64_t seed, std::int64_t lineage, double grid, double time, double step);
 
-/// Active forces on all cells at a state. Random force of a component: Gamma_med sqrt(2 D / grid)
-/// xi, with Gamma_med the cell's present friction with the medium alone.
+/// Computes active forces on all cells. Random force per component: Gamma_med sqrt(2 D / grid) xi,
+/// with the present friction Gamma_med of the cell with the medium.
 /// [VanLiedekerke2020, Eq. (1) term 9 and Eq. (19), with the noise of docs/decisions/0004.md]
 void compute_cell_forces(const World& world, const State& at, double step,
                          const MediumFriction& medium, std::span<const std::uint8_t> leader,

@@ -13,8 +13,8 @@
 namespace acinus::coupling {
 namespace {
 
-/// How far cells may be thought to go on with their present velocity, um.
-constexpr double kLongestWay = 0.25;
+/// Largest extrapolated displacement of a cell with its present velocity, um.
+constexpr double kLongestExtrapolation = 0.25;
 
 CellSet find_cells(const State& s, bool asleep) {
   CellSet cells;
@@ -24,8 +24,8 @@ CellSet find_cells(const State& s, bool asleep) {
   return cells;
 }
 
-/// Gap, um, beyond which no two cells act on each other, with room for the growth of a step.
-double find_reach(const World& world) {
+/// Gap, um, beyond which two cells cannot interact, with a reserve for growth during a step.
+double compute_reach(const World& world) {
   const State& s = world.state;
   const Params& p = world.params;
   const std::vector<double> shell = dcm::reference_radii(s.dcm, s.clock.time),
@@ -39,7 +39,7 @@ double find_reach(const World& world) {
   return reach;
 }
 
-/// Members of both, each ascending.
+/// Union of two sets, ascending.
 CellSet unite(const CellSet& a, const CellSet& b) {
   CellSet all;
   std::ranges::set_union(a.dcm, b.dcm, std::back_inserter(all.dcm));
@@ -54,7 +54,7 @@ CellSet subtract(const CellSet& a, const CellSet& b) {
   return rest;
 }
 
-/// Leaders are chosen among all cells: a sleeper may stand before one awake.
+/// Chooses leaders among all cells, since a sleeper may be in front of an awake cell.
 void choose_leaders_of_all(World& world) {
   State& s = world.state;
   if (!(world.params.motility.leader_force > 0) || s.clock.phase != Phase::kRun) return;
@@ -62,12 +62,12 @@ void choose_leaders_of_all(World& world) {
                  cbm::radii_at(s.cbm, s.clock.time), s.leader, s.leader_interval);
 }
 
-/// Whether sleepers go on with their velocity: only linearly implicit steps know of it.
+/// True if sleepers keep their velocity; only linearly implicit steps support it.
 bool sleepers_move(const World& world) {
   return world.params.numerics.integrator == Integrator::kLinearlyImplicit;
 }
 
-/// Copies cells as they are now into a subworld of the same constants.
+/// Copies the present cells into a subworld of the same constants.
 void take_part(const World& world, CellSet moving, CellSet constrained, Subworld& part) {
   take_cells(world.state, std::move(moving), std::move(constrained), part);
   part.work.constraint.prescribed_velocity = sleepers_move(world);
@@ -85,7 +85,7 @@ void start_last_moves(State& s) {
   if (!has_last_move(s)) s.last_move.assign(count_unknowns(s), 0.0);
 }
 
-/// What a run tells about work done and left out counts wherever it happened.
+/// Adds the counters of a subworld step to those of the whole world.
 void move_counts(Workspace& from, Workspace& to) {
   to.dcm.lists.checked += std::exchange(from.dcm.lists.checked, 0);
   to.dcm.lists.made += std::exchange(from.dcm.lists.made, 0);
@@ -98,7 +98,7 @@ void move_counts(Workspace& from, Workspace& to) {
   to.cbm.beyond += std::exchange(from.cbm.beyond, 0);
 }
 
-/// Sleepers go on with their velocity.
+/// Moves sleepers with their velocity.
 void move_sleepers(State& s, double step) {
   if (!has_last_move(s)) return;
   const double ratio = step / s.clock.last_step;
@@ -113,7 +113,7 @@ void move_sleepers(State& s, double step) {
   });
 }
 
-/// Time passes: no cell is awake.
+/// Advances the clock alone; no cell is awake.
 StepResult pass_time(World& world, double limit) {
   Clock& clock = world.state.clock;
   StepResult result;
@@ -126,7 +126,7 @@ StepResult pass_time(World& world, double limit) {
   return result;
 }
 
-/// Slows cells down that would go too far in so long a time.
+/// Limits velocities to the largest extrapolated displacement over a duration.
 void limit_velocity(State& s, double duration) {
   for_each_cell(s, [&](const Cell& c) {
     double farthest2 = 0;
@@ -134,9 +134,10 @@ void limit_velocity(State& s, double duration) {
       farthest2 = std::max(farthest2, load_point(s.last_move.data(), a).squaredNorm());
     });
     const double way = duration / s.clock.last_step * std::sqrt(farthest2);
-    if (!(way > kLongestWay)) return;
+    if (!(way > kLongestExtrapolation)) return;
     for_each_point(s, c, [&](Address a) {
-      store_point(s.last_move.data(), a, kLongestWay / way * load_point(s.last_move.data(), a));
+      store_point(s.last_move.data(), a,
+                  kLongestExtrapolation / way * load_point(s.last_move.data(), a));
     });
   });
 }
@@ -169,7 +170,7 @@ StepResult step_awake(World& world, Workspace& w, AwakePart& kept, CellSet awake
 }  // namespace
 
 CellSet find_ring(const World& world, const CellSet& cells) {
-  const double reach = find_reach(world);
+  const double reach = compute_reach(world);
   const CellSet near = find_neighbours(world, cells, reach);
   if (near.cbm.empty()) return near;
   const CellSet next = find_neighbours(world, {{}, near.cbm}, reach);

@@ -1,7 +1,7 @@
 #pragma once
-/// Steps of a world in which cells sleep. The cells awake step in a subworld of their own, with the
-/// sleepers they may touch constrained around them. Sleepers go on with a velocity that one long
-/// step of theirs sets now and then. (docs/decisions/0015.md)
+/// Steps of a world with sleeping cells. Awake cells step in a subworld, with neighbouring sleepers
+/// as constraints. Sleepers move with a velocity from one long step, renewed on a time grid
+/// (docs/decisions/0015.md).
 
 #include <cstdint>
 #include <memory>
@@ -14,27 +14,25 @@
 
 namespace acinus::coupling {
 
-/// Those around some cells that a step of these has to look at: all that may touch them, and what
-/// touches the spheres among these, whose stiffness depends on all their contacts.
+/// Cells needed around others in their step: all contact candidates, and the neighbours of spheres
+/// among these, whose stiffness depends on all their contacts.
 CellSet find_ring(const World& world, const CellSet& cells);
 
-/// The cells awake as a world of their own, kept between steps while the set of all cells stays.
+/// Subworld of the awake cells, kept between steps while the set of all cells is the same.
 struct AwakePart {
   std::unique_ptr<Subworld> subworld;
-  std::uint64_t sized = 0;  ///< Workspace::sized of the whole world when it was made
+  std::uint64_t sized = 0;  ///< Workspace::sized of the whole world at its extraction
 };
 
-/// Advances by one accepted step no longer than `limit`: of all cells, or of those awake. Sleepers
-/// keep to their velocity to the bit. With no cell awake only time passes.
-/// Not accepted: a step of min_step was still rejected; State is the last good one.
+/// Advances all cells, or those awake, by one accepted step no longer than `limit`. Sleepers keep
+/// their velocity to the bit. With no awake cell only the clock advances.
+/// @return not accepted if a step of min_step was rejected; State is then the last accepted one
 StepResult advance(World& world, Workspace& work, AwakePart& awake, double limit);
 
-/// Sets the velocity, kept as their last move, of sleepers for a duration, s, to come: that of one
-/// step as long as it of sleepers whose neighbours stand still, without motility. (With those awake
-/// at a prescribed velocity no step would look at the balance of both together, and whatever
-/// velocity they have would last.)
-/// @return not ok if there is no such step, or the process is asked to stop: then nothing has
-/// changed
+/// Sets the velocity of sleepers, kept as their last move, for the next `duration`, s: that of one
+/// step of this length without motility, with their neighbours at rest. (With awake neighbours at a
+/// prescribed velocity no step would balance both together, and their velocity would persist.)
+/// @return not ok if the step failed or the process was asked to stop; nothing has changed then
 [[nodiscard]] LoopResult set_sleepers_velocity(World& world, Workspace& work, double duration);
 
 }  // namespace acinus::coupling

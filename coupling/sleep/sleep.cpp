@@ -13,7 +13,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// Whether nothing makes the cell move by itself.
+/// True if no active process moves the cell.
 bool may_sleep(const State& s, const Cell& c) {
   const double t = s.clock.time;
   const Ramp& volume = volume_of(s, c);
@@ -22,7 +22,7 @@ bool may_sleep(const State& s, const Cell& c) {
   return c.deformable ? s.dcm.birth[c.at].is_forgotten(t) : t >= s.cbm.strength[c.at].end;
 }
 
-/// Loads of all cells, without what only trembles: sleepers have no random motility.
+/// Loads of all cells without random motility, which sleepers do not have.
 void observe_rest(World& world, Workspace& work) {
   bool& random = world.params.motility.random;
   const bool trembles = std::exchange(random, false);
@@ -59,7 +59,7 @@ std::vector<double> unbalanced_traction(const World& world, const Workspace& w) 
       add(*g.nucleus.topology, g.topology->n_node, g.nucleus.size * g.nucleus.size * r2);
     traction[c.index] = std::sqrt(sum / (g.topology->rest_area * r2));
   });
-  // Those that are not own are 0.
+  // Cells of other processes are 0.
   w.system.ownership.ranks.max(traction);
   return traction;
 }

@@ -21,11 +21,11 @@
 namespace acinus::coupling {
 namespace {
 
-/// A predicted gap below minus this share of the search depth, still closing, is too deep.
-constexpr double kDeep = 2.0 / 3;
-constexpr double kClosing = 0.1;  ///< um a deep contact may still close in one step
+/// Share of the search depth beyond which a contact that still closes is too deep.
+constexpr double kDeepShare = 2.0 / 3;
+constexpr double kDeepClosing = 0.1;  ///< um, largest approach of a deep contact in one step
 
-/// Of the cell in a lane; none of the tree.
+/// Lineage of the cell in a lane; empty for the vessel tree.
 std::vector<std::int64_t> lineage_of(const State& s, std::size_t lane) {
   if (lane < s.dcm.n_lane()) return {s.dcm.lineage[lane]};
   const std::size_t cell = lane - s.dcm.n_lane();
@@ -33,8 +33,8 @@ std::vector<std::int64_t> lineage_of(const State& s, std::size_t lane) {
   return {};
 }
 
-/// What the displacement of a body in a step is measured by, um: the mean edge of a mesh at rest,
-/// that of a sphere's as good mesh, the thinnest vessel.
+/// Length scale of the displacement of a body, um: mean edge of its mesh at rest, of a mesh of
+/// equal quality for a sphere, radius of the thinnest vessel.
 double edge_of(const World& world, const Workspace& w, std::size_t lane) {
   const State& s = world.state;
   if (lane < s.dcm.n_lane())
@@ -53,12 +53,12 @@ std::size_t lane_of(const Workspace& w, Address a) {
   return static_cast<std::size_t>(it - blocks.begin() - 1) * kLanes + a % kLanes;
 }
 
-/// Share of its area a face must keep in a step, seen along its normal: one that shrinks faster is
-/// resolved by shorter steps before it has no direction left.
+/// Least share of its area that a face keeps in a step, projected on its normal: faces that shrink
+/// faster are resolved by shorter steps before their normal degenerates.
 constexpr double kLeastArea = 0.25;
 
-/// Whether a move turns a face over, or nearly, or folds two faces of an edge through each other.
-/// @param first  number of the mesh's first node among the points of the cell
+/// True if a move inverts a face, or nearly, or folds two faces of an edge through each other.
+/// @param first  number of the first node of the mesh among the points of the cell
 bool turns_over(const dcm::State& s, std::size_t lane, const geometry::Topology& t, int first,
                 const std::vector<double>& move) {
   struct Normals {
@@ -92,26 +92,26 @@ bool turns_over(const dcm::State& s, std::size_t lane, const geometry::Topology&
   return false;
 }
 
-/// The same for cortex and nucleus of a cell.
+/// True if a move inverts a face of the cortex or the nucleus of a cell.
 bool turns_over(const dcm::State& s, std::size_t lane, const std::vector<double>& move) {
   const dcm::Group& g = s.group[lane / kLanes];
   if (turns_over(s, lane, *g.topology, 0, move)) return true;
   return g.nucleus.exists() && turns_over(s, lane, *g.nucleus.topology, g.topology->n_node, move);
 }
 
-/// What the moves of cells come to.
+/// Extremes of the displacements of cells.
 struct Moves {
   static constexpr auto kNone = static_cast<std::size_t>(-1);
   double largest = 0, excess = 1;
   std::size_t infinite = kNone, too_far = kNone, turned = kNone;  ///< lanes
-  double distance = 0;                                            ///< um, of the lane too far
+  double distance = 0;  ///< um, displacement of the lane too_far
 
-  /// The same in any order.
+  /// Merges two parts; the result does not depend on their order.
   void add(const Moves& o) {
     largest = std::max(largest, o.largest);
     infinite = std::min(infinite, o.infinite);
     turned = std::min(turned, o.turned);
-    // Of all cells that move too far, the one that does so most.
+    // The cell with the largest excess among those that move too far.
     if (o.excess > excess || (o.excess == excess && o.excess > 1 && o.too_far < too_far)) {
       excess = o.excess;
       too_far = o.too_far;
@@ -120,8 +120,8 @@ struct Moves {
   }
 };
 
-/// The farthest a node moves beside the move of its cell as a whole, where that meets nothing: a
-/// cell in liquid may be carried any distance in a step. um
+/// Largest displacement of a node relative to its cell, um, if the cell as a whole is clear of
+/// others: a cell in liquid may be displaced any distance in a step. Else the largest displacement.
 double largest_deformation(const World& world, const Workspace& w, std::size_t lane, Address first,
                            int n_point, double largest) {
   const auto move = [&](int i) {
@@ -137,7 +137,7 @@ double largest_deformation(const World& world, const Workspace& w, std::size_t l
   return deformation;
 }
 
-Moves find_moves(const World& world, const Workspace& w) {
+Moves reduce_moves(const World& world, const Workspace& w) {
   const State& s = world.state;
   Moves own_cells, all_cells;
   for_each_own_cell<Moves>(
@@ -180,26 +180,26 @@ Moves find_moves(const World& world, const Workspace& w) {
   return all_cells;
 }
 
-/// How deep a contact is driven by a step, um; 0: no danger. Where the repulsion is in the matrix,
-/// depth is a matter of load, not of the step: only the range of the search bounds it. Where it is
-/// not, what counts is the depth beyond the point at which the contact would have begun to push.
+/// Depth of a contact at the end of a step, um; 0 if acceptable. With repulsion in the matrix the
+/// depth follows from the load and only the search range bounds it. Otherwise the depth beyond the
+/// onset of repulsion counts.
 double depth_after(const World& world, const Workspace& w, std::size_t l) {
-  const double max_depth = world.params.dcm_contact.max_depth, range = -kDeep * max_depth;
+  const double max_depth = world.params.dcm_contact.max_depth, range = -kDeepShare * max_depth;
   const double unfelt = world.params.numerics.adaptive ? -kControlledDepth : range;
   const solve::Link& link = w.system.links.link[l];
   const solve::LinkLoad& load = w.system.links.load[l];
   const double gap = static_cast<double>(link.gap);
   if (gap > 0.5 * max_depth) return 0;
   const double end = gap_after(w, link);
-  if (end - gap > -kClosing) return 0;
+  if (end - gap > -kDeepClosing) return 0;
   const bool felt = w.system.links.is_closed(l) || load.clearance <= 0;
   const bool deep = end < range || (!felt && clearance_at(end, link, load) < unfelt);
   return deep ? -end : 0;
 }
 
-/// A contact that is driven deep.
+/// Contact that ends too deep.
 struct DeepContact {
-  std::array<int, 3> place{};  ///< in the list of all contacts: kind, and its two sides
+  std::array<int, 3> place{};  ///< key in the list of contacts: kind, and the two sides
   std::size_t a = 0, b = 0;    ///< lanes; equal: with boundary or its own nucleus
   bool inner = false, pair = false;
   double depth = 0;  ///< um
@@ -222,7 +222,7 @@ DeepContact describe_contact(const World& world, const Workspace& w, std::size_t
   return deep;
 }
 
-/// The first contact of all processes that is driven deep.
+/// First contact of all processes that ends too deep.
 std::optional<DeepContact> find_deep_contact(const World& world, const Workspace& w) {
   const std::size_t n = w.system.links.size();
   std::atomic<std::size_t> first = n;
@@ -245,7 +245,7 @@ Assessment reject(const State& s, std::string cause, std::size_t lane) {
 
 Assessment assess_moves(const World& world, double step, const Workspace& w) {
   const State& s = world.state;
-  const Moves m = find_moves(world, w);
+  const Moves m = reduce_moves(world, w);
   Assessment a;
   if (m.infinite != Moves::kNone)
     a = reject(s, name_body(s, m.infinite) + ": its displacement is not finite", m.infinite);

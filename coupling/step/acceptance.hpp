@@ -1,6 +1,6 @@
 #pragma once
-/// Stage 7 of a step: the verdict on a computed displacement. It may become State if it is finite
-/// and small enough, turns no face over and drives no contact deep.
+/// Stage 7 of a step: acceptance or rejection of a computed displacement. Accepted displacements
+/// are finite and small enough, invert no face and drive no contact deep.
 
 #include <cstdint>
 #include <string>
@@ -14,21 +14,21 @@ namespace acinus::coupling {
 
 struct Assessment {
   bool accepted = true;
-  std::string cause;                ///< of rejection
-  std::vector<std::int64_t> cells;  ///< lineages of the cells concerned
-  double error = 0;                 ///< um
-  double max_move = 0;              ///< um
+  std::string cause;                ///< cause of rejection
+  std::vector<std::int64_t> cells;  ///< lineages of the cells that caused it
+  double error = 0;                 ///< um, estimated error
+  double max_move = 0;              ///< um, largest displacement
 };
 
-/// Largest displacement a cell may make in one step, um: max_move mean edges of its mesh; spheres
-/// as a 162-node mesh of their radius. Infinite when max_move is 0.
+/// Largest displacement of a cell in one step, um: max_move mean edges of its mesh; for a sphere
+/// those of a 162-node mesh of its radius. Infinite if max_move is 0.
 double move_limit(double max_move, double mean_edge);
 inline constexpr double kSphereEdge = 0.3;  ///< mean edge of a 162-node mesh, in radii
 
-/// Largest estimated error of an accepted step, in tolerances, where its length is controlled.
+/// Largest estimated error of an accepted step, in tolerances, with step-size control.
 inline constexpr double kMostError = 4;
 
-/// Judges the displacement in work.move. Counts failed solves.
+/// Accepts or rejects the displacement in work.move. Counts failed solves.
 /// @param solved  outcome of the solver
 Assessment assess_step(const World& world, double step, const Status& solved, Workspace& work);
 

@@ -10,23 +10,24 @@
 namespace acinus::coupling {
 namespace {
 
-/// Depth, um, up to which a closing contact is left to the next step: most closing contacts are
-/// below it, and each change of the active set costs a solve.
+/// Depth of a closing contact, um, below which it stays out of the active set: most closing
+/// contacts are below it, and each change of the set costs a solve.
 constexpr double kShallowDepth = 0.02;
-/// Gap, um, up to which a contact on its repulsive branch may end open: with 10 nN/um it then pulls
-/// with 0.02 nN.
+/// Largest gap, um, of a contact that ends open on its repulsive branch: with 10 nN/um it then
+/// pulls with 0.02 nN.
 constexpr double kMostGap = 0.002;
-/// Changes of the active set within a step.
+/// Largest number of changes of the active set in a step.
 constexpr int kMostChanges = 6;
 
-/// The part of a point's move that is not in the gaps of contacts yet.
+/// Displacement of a point from the point of linearisation, which the gaps of contacts do not
+/// contain yet.
 Vec3 rest_of_move(const Workspace& w, Address a) {
   const Vec3 move = load_point(w.move.data(), a);
   return w.linearisation.is_elsewhere() ? Vec3(move - load_point(w.linearisation.move.data(), a))
                                         : move;
 }
 
-/// The longest of them, um.
+/// Largest of these displacements, um.
 double largest_rest(const Workspace& w) {
   std::atomic<double> largest2 = 0;
   const std::size_t n_row = w.system.n_row, n_part = count_threads(n_row);

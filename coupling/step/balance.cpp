@@ -10,10 +10,11 @@ namespace acinus::coupling {
 
 namespace {
 
-/// Brings w.cg.residual to that of the step, and w.cg.product to what boundary and medium
-/// exert in it.
-void find_products(const World& world, Workspace& w) {
-  // Of A dx = b the residual is known; a displacement that iterations corrected needs the product.
+/// Computes the residual of the step into w.cg.residual and the forces of boundary and medium into
+/// w.cg.product.
+void compute_products(const World& world, Workspace& w) {
+  // The solve of A dx = b leaves its residual; a displacement corrected by Newton needs the
+  // product.
   if (world.params.numerics.integrator == Integrator::kNewton) {
     w.op.apply(w.move, w.cg.product);
     for_each_own_number(w.system,
@@ -23,7 +24,7 @@ void find_products(const World& world, Workspace& w) {
     w.op.apply_external(w.move, w.cg.product);
     return;
   }
-  // The matrix is that of the rest of the way.
+  // The matrix acts on the displacement from the point of linearisation.
   for_each_own_number(w.system, [&](std::size_t k) { w.move[k] -= w.linearisation.move[k]; });
   w.op.apply_external(w.move, w.cg.product);
   for_each_own_number(w.system, [&](std::size_t k) {
@@ -32,7 +33,7 @@ void find_products(const World& world, Workspace& w) {
   });
 }
 
-/// Where the numbers of the sums stand.
+/// Offsets of the sums in the array of numbers.
 enum Number : std::size_t { kForce = 0, kTorque = 3, kRestTorque = 6, kSizes = 9, kNumbers = 12 };
 
 void add(const Vec3& v, std::size_t at, std::array<double, kNumbers>& to) {
@@ -42,7 +43,7 @@ Vec3 vector_at(const std::array<double, kNumbers>& from, std::size_t at) {
   return {from[at], from[at + 1], from[at + 2]};
 }
 
-Vec3 find_center(const Workspace& w) {
+Vec3 compute_center(const Workspace& w) {
   const auto middle =
       sum_over_cells<4>(w, true, [&](std::size_t, Address first, int n_point, CellSums<4>& part) {
         for (int i = 0; i < n_point; ++i) {
@@ -55,7 +56,7 @@ Vec3 find_center(const Workspace& w) {
   return Vec3(middle[0], middle[1], middle[2]) / std::max(middle[3], 1.0);
 }
 
-/// What pair friction and the pair forces' change exert on a point during the step.
+/// Force on a point from pair friction and from the change of pair forces during the step, nN.
 Vec3 rest_on(const Workspace& w, Address a) {
   const Vec3 product = load_point(w.rhs.data(), a) - load_point(w.cg.residual.data(), a);
   return load_point(w.cg.product.data(), a) - product;
@@ -64,8 +65,8 @@ Vec3 rest_on(const Workspace& w, Address a) {
 }  // namespace
 
 Balance measure_balance(const World& world, Workspace& w) {
-  find_products(world, w);
-  const Vec3 center = find_center(w);
+  compute_products(world, w);
+  const Vec3 center = compute_center(w);
   const auto t = sum_over_cells<kNumbers>(
                      w, false,
                      [&](std::size_t lane, Address first, int n_point, CellSums<kNumbers>& part) {

@@ -1,5 +1,5 @@
 #pragma once
-/// How well the forces of a step balance.
+/// Force and torque balance of a step.
 
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"

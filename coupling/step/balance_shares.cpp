@@ -10,15 +10,14 @@
 namespace acinus::coupling {
 namespace {
 
-/// Accepted steps between two looks at who waits for whom, and how much longer than the mean the
-/// busiest may be busy.
+/// Accepted steps between checks of the load, and the largest accepted load imbalance.
 constexpr std::int64_t kStepsBetween = 32;
 constexpr double kImbalance = 1.1;
 
-/// Time this process was busy since its start, s.
+/// Busy time of this process since its start, s.
 double busy_time() { return wall_seconds() - Ranks::traffic().wait_s; }
 
-/// What blocks cost beside each other, without a measure: their points, and the contacts of these.
+/// Relative costs of blocks without a measurement: their points and the contacts of these.
 std::vector<double> count_work(const solve::System& s) {
   constexpr double kLinkWork = 2;  // points
   std::vector<double> work;
@@ -43,7 +42,7 @@ void balance_shares(const World& world, Workspace& w) {
   cost.busy += busy;
   cost.steps = 0;
   if (first) return;  // with reading and placing
-  // What each process was busy for goes to its blocks in proportion to their work.
+  // The busy time of each process is distributed over its blocks by their work.
   const std::vector<double> work = count_work(w.system);
   double own_work = 0;
   for (const auto& [begin, end] : w.system.own)

@@ -1,14 +1,13 @@
 #pragma once
-/// Keeps processes from waiting for each other: what cells cost is measured, and they are shared
-/// anew.
+/// Dynamic load balancing: measures the cost of cells and partitions them anew.
 
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 
-/// To be called after every accepted step. Every now and then looks at how long the processes were
-/// busy, notes what cells cost, and shares them anew if some waited for others.
+/// Measures load imbalance at intervals of steps and repartitions the cells if it is too large.
+/// Call it after every accepted step.
 void balance_shares(const World& world, Workspace& work);
 
 }  // namespace acinus::coupling

@@ -1,5 +1,5 @@
 #pragma once
-/// Sums over all cells that are the same for any number of threads and processes.
+/// Sums over all cells, independent of the number of threads and processes.
 
 #include <array>
 #include <cstddef>
@@ -11,12 +11,12 @@
 
 namespace acinus::coupling {
 
-/// f(lane, address of its first point, number of places, part) for every own body, with one part
-/// per block; put(part) for the parts in the order of the blocks. Without constrained cells, or of
-/// all.
+/// Calls f(lane, address of the first point, number of places, part) for every own body, with one
+/// part per block, then put(part) in the order of the blocks. Constrained cells are left out on
+/// request.
 template <class Part, class F, class Put>
 void for_each_own_cell(const Workspace& w, bool unconstrained_only, const F& f, const Put& put) {
-  // Of this thread, so that their memory stays; other threads of the loop write to them.
+  // Kept per calling thread to reuse memory; other threads of the loop write to the parts.
   thread_local std::vector<Part> kept_part;
   std::vector<Part>& part = kept_part;
   const auto& block = w.system.block;
@@ -33,14 +33,14 @@ void for_each_own_cell(const Workspace& w, bool unconstrained_only, const F& f, 
     for (std::size_t b = first; b < last; ++b) put(part[b]);
 }
 
-/// Sums of N numbers over the cells, and the largest of one.
+/// Sums of N numbers over the cells, and the largest of one number.
 template <std::size_t N>
 struct CellSums {
   std::array<double, N> number{};
   double largest = 0;
 };
 
-/// The same over the cells of all processes, exact sums.
+/// Exact sums over the cells of all processes.
 template <std::size_t N, class F>
 CellSums<N> sum_over_cells(const Workspace& w, bool unconstrained_only, const F& f) {
   std::array<ExactSum, N> sum;

@@ -16,7 +16,7 @@ bool is_clear(const World& world, const Workspace& w, std::size_t body, double d
     if (box.overlaps(sphere_box(cbm::center_of(s.cbm, c), w.cbm_radius[c]))) return false;
   }
   const contact::Boundary& boundary = world.params.boundary;
-  // Vessels and meshes are not looked at one by one: cells beside them move step by step.
+  // Vessels and meshes are not tested one by one: cells near them keep the displacement limit.
   if (!boundary.meshes.empty() || !boundary.vessels.network.segment.empty()) return false;
   bool clear = true;
   const double reach = 0.5 * (box.high - box.low).norm();

@@ -1,5 +1,5 @@
 #pragma once
-/// How free a cell is to move as a whole.
+/// Clearance of a cell for rigid displacement.
 
 #include <cstddef>
 
@@ -8,9 +8,9 @@
 
 namespace acinus::coupling {
 
-/// Whether nothing comes within the range of contact of a deformable cell that moves by `distance`
-/// um in any direction, even if everything else moves as far.
-/// @param body  number in work.dcm.body
+/// True if nothing comes within contact range of a deformable cell displaced by `distance`, um, in
+/// any direction, even if all others move as far.
+/// @param body  index in work.dcm.body
 bool is_clear(const World& world, const Workspace& work, std::size_t body, double distance);
 
 }  // namespace acinus::coupling

@@ -3,9 +3,9 @@
 namespace acinus::coupling {
 namespace {
 
-/// What a constrained point resists with, nN/um: so much more than anything pushes with that no
-/// other point feels it move, and little enough for the solver. What it moves in the solution is
-/// left out: add_constraint makes the force that keeps it, place_constrained its place.
+/// Penalty stiffness of a constrained point, nN/um: large enough that other points do not feel it
+/// move, small enough for the conditioning of the solve. The remaining displacement is discarded:
+/// add_constraint yields the reaction force, place_constrained the position.
 constexpr double kStiffness = 1e6;
 
 /// Calls f with the row and the lane of every constrained point.

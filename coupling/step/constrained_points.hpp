@@ -7,18 +7,19 @@
 
 namespace acinus::coupling {
 
-/// Tells contacts and forces within cells which deformable cells are constrained.
+/// Marks constrained deformable cells for contacts and internal forces.
 void apply_constraints(Workspace& work);
 
-/// Ties every constrained point to its place: a diagonal entry so large that it does not move.
+/// Adds a penalty stiffness to the diagonal of every constrained point.
 void add_constraint(double step, Workspace& work);
 
-/// Takes out of the product of the assembled matrix with `move` what add_constraint added to it.
+/// Subtracts the contribution of add_constraint from the product of the assembled matrix with
+/// `move`.
 void remove_constraint(const Workspace& work, std::span<const double> move,
                        std::span<double> product);
 
-/// Constrained points go exactly where they have to, whatever the solver found.
-/// @param move  [n_row][3][lane] um; empty: they stay where they are
+/// Sets the displacement of constrained points to its prescribed value.
+/// @param move  [n_row][3][lane] um; empty: zero
 void place_constrained(std::span<const double> move, Workspace& work);
 
 }  // namespace acinus::coupling

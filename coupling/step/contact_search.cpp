@@ -23,7 +23,7 @@ void search_contacts(const InterfaceInput& in, Workspace& w) {
   w.cbm.overlap_sum.clear();
   if (cbm::has_correction(in.cbm.params)) cbm::compute_overlaps(in.cbm, w.cbm);
   find_interface(in, w.dcm, w.cbm, w.interface, w.contacts);
-  // Of what its cells share a contact with, each process knows only the contacts with these.
+  // A process knows of a ghost cell only its contacts with own cells: shares are exchanged.
   exchange_shares(w);
   const SphereExchange spheres = plan_sphere_exchange(w);
   exchange_values(w, spheres, w.cbm.overlap_sum);

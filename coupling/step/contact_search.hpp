@@ -6,7 +6,7 @@
 
 namespace acinus::coupling {
 
-/// Refreshes the neighbour lists where something moved, then finds all contacts.
+/// Refreshes outdated neighbour lists, then finds all contacts.
 /// @param at   positions of all cells
 /// @param end  s, clock time of the positions of moving walls
 /// @pre references and constraints are those of the step

@@ -17,7 +17,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// Makes the touching spheres of all processes known.
+/// Exchanges the touching spheres of all processes.
 void gather_touching(Workspace& w) {
   const solve::Ownership& ownership = w.system.ownership;
   if (ownership.is_whole()) return;
@@ -34,19 +34,18 @@ void gather_touching(Workspace& w) {
   for (const auto& [a, b] : all) w.cbm.touching.emplace_back(a, b);
 }
 
-/// Iterations per solve above which the coarse space is switched on, and below which it is switched
-/// off again.
+/// Iterations per solve above which the coarse space is enabled, and below which it is disabled
+/// again.
 constexpr int kCoarseOn = 60, kCoarseOff = 15;
 
-/// Whether the next step is worth a coarse space. It is of use where cells with many nodes hang
-/// together; spheres alone are as well served by their diagonal blocks.
+/// True if a coarse space pays in the next step. It does for connected cells with many nodes; for
+/// spheres alone the block-diagonal preconditioner is as good.
 bool want_coarse(const State& s, int iterations_per_solve) {
   if (s.dcm.group.empty()) return false;
   return iterations_per_solve > (s.clock.coarse ? kCoarseOff : kCoarseOn);
 }
 
-/// Length of the next step from the error of this one. A quarter more or less is not worth a
-/// change.
+/// Length of the next step from the error of this one; changes below a quarter are not worth it.
 double next_step(const Numerics& n, double step, double error) {
   if (!n.adaptive) return n.max_step;
   const double factor =
@@ -101,7 +100,7 @@ StepResult take_step(World& world, Workspace& w, double limit) {
       gather_touching(w);
       commit(step, effort, world, w);
       s.clock.rejected += result.rejections;
-      // A step cut short by an event says little about the next one's length.
+      // A step shortened by an event predicts little about the length of the next.
       s.clock.step = step < wanted ? wanted : next_step(n, step, a.error);
       result.accepted = true;
       result.step = step;

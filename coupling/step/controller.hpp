@@ -10,22 +10,22 @@
 
 namespace acinus::coupling {
 
-/// What came of a step.
+/// Outcome of a step.
 struct StepResult {
   bool accepted = false;
-  bool interrupted = false;         ///< not accepted because the process was asked to stop
+  bool interrupted = false;         ///< not accepted, since the process was asked to stop
   double step = 0;                  ///< s, length of the accepted step
   double error = 0;                 ///< um, its estimated error
-  double max_move = 0;              ///< um
-  int rejections = 0;               ///< attempts rejected before it
-  std::string cause;                ///< why the last attempt was rejected
-  std::vector<std::int64_t> cells;  ///< lineage ids of the cells concerned
+  double max_move = 0;              ///< um, largest displacement
+  int rejections = 0;               ///< rejected attempts before it
+  std::string cause;                ///< cause of the last rejection
+  std::vector<std::int64_t> cells;  ///< lineages of the cells that caused it
 };
 
-/// Advances all cells by one accepted step no longer than `limit`, with as many shorter retries as
-/// it takes; constrained cells go as the constraint says.
-/// Not accepted: a step of min_step was still rejected, or the process was asked to stop
-/// meanwhile; State is the last good one.
+/// Advances all cells by one accepted step no longer than `limit`, after as many shorter retries as
+/// needed. Constrained cells follow the constraint.
+/// @return not accepted if a step of min_step was rejected or the process was asked to stop; State
+/// is then the last accepted one
 StepResult take_step(World& world, Workspace& work, double limit);
 
 }  // namespace acinus::coupling

@@ -1,5 +1,5 @@
 #pragma once
-/// Work of the attempts at a step.
+/// Work spent on the attempts at a step.
 
 namespace acinus::coupling {
 

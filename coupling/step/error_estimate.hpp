@@ -1,5 +1,5 @@
 #pragma once
-/// How far a step is off, from the change of velocity.
+/// Error estimate of a step from the change of velocity.
 
 #include <span>
 
@@ -8,12 +8,12 @@
 
 namespace acinus::coupling {
 
-/// Size of an error field, um: the larger of the rms and a fifth of the maximum over nodes. With
-/// random motility every cell's mean is left out: it is white noise, which is integrated exactly.
-/// @param field [n_row][3][lane] um
+/// Norm of an error field, um: the larger of its rms and a fifth of its maximum over nodes. With
+/// random motility the mean of every cell is left out: it is white noise, integrated exactly.
+/// @param field  [n_row][3][lane] um
 double error_norm(const World& world, const Workspace& work, std::span<const double> field);
 
-/// Error estimate, um: half the change of velocity times the step. A first step is compared with
+/// Estimated error, um: half the change of velocity times the step. A first step is compared with
 /// rest.
 double estimate_error(const World& world, double step, Workspace& work);
 

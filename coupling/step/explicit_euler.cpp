@@ -5,8 +5,8 @@
 namespace acinus::coupling {
 namespace {
 
-/// True if the shapes of the cells oscillate without decay, as with explicit Euler beyond its limit
-/// of stability: the fastest mode changes its sign at every step and outweighs all others.
+/// True if cell shapes oscillate without decay: beyond the limit of stability of explicit Euler the
+/// fastest mode changes sign in every step and dominates all others.
 bool shapes_oscillate(const World& world, double step, const Workspace& w) {
   const State& s = world.state;
   if (!has_last_move(s)) return false;

@@ -1,6 +1,6 @@
 #pragma once
-/// Stability of explicit Euler, (Gamma/h) dx = F(x; t), the friction solve of [VanLiedekerke2020],
-/// of order 1.
+/// Stability check of explicit Euler, (Gamma/h) dx = F(x; t), of first order, the friction solve of
+/// [VanLiedekerke2020].
 
 #include "core/error.hpp"
 #include "coupling/world/workspace.hpp"
@@ -8,7 +8,7 @@
 
 namespace acinus::coupling {
 
-/// Fails if the shapes of cells oscillate without decay: the step is beyond the limit of stability.
+/// Check that cell shapes do not oscillate without decay, as beyond the limit of stability.
 /// @pre the step was solved
 [[nodiscard]] Status check_stability(const World& world, double step, Workspace& work);
 

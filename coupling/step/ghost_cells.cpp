@@ -7,7 +7,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// A cell that another process needs, or that is needed from it.
+/// Cell sent to or received from another process.
 struct SharedCell {
   int rank = 0, cell = 0;
   auto operator<=>(const SharedCell&) const = default;
@@ -19,7 +19,7 @@ void sort_once(std::vector<SharedCell>& cells) {
   cells.erase(repeated.begin(), repeated.end());
 }
 
-/// Who is what to whom, from contacts that both processes know.
+/// Exchange lists between processes, derived from contacts that both sides know.
 struct SharedCells {
   std::vector<SharedCell> send, receive;
 
@@ -27,7 +27,7 @@ struct SharedCells {
     sort_once(send);
     sort_once(receive);
   }
-  /// f(rank, first and last of send, of receive) for every process.
+  /// Calls f(rank, first and last of send, first and last of receive) for every peer.
   template <class F>
   void for_each_peer(F f) const {
     auto from = send.begin();

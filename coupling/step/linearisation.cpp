@@ -11,14 +11,14 @@
 namespace acinus::coupling {
 namespace {
 
-/// True if the last step's velocity predicts the next displacement, and a better step is worth an
-/// assembly: that of spheres alone comes out the same without.
+/// True if the velocity of the last step predicts the next displacement and the predictor pays for
+/// its assembly. It does not for spheres alone, whose step is the same without it.
 bool is_steady(const World& world) {
   const State& s = world.state;
   if (!has_last_move(s) || s.dcm.n_lane() == 0) return false;
-  // Where spheres leave room, deformable cells under pressure bulge into it. What holds a bulge,
-  // pressure and stretched triangles, is not all in the matrix: extrapolated steps swing there
-  // where plain ones settle (docs/decisions/0035.md).
+  // Deformable cells under pressure bulge into gaps between spheres. The matrix has only part of
+  // the resistance of a bulge, pressure and stretched triangles: extrapolated steps oscillate there
+  // and others settle (docs/decisions/0035.md).
   if (s.cbm.n_cell() > 0 && s.clock.step < world.params.numerics.max_step) return false;
   const Motility& m = world.params.motility;
   if (!m.random || !controls_at(s.clock, world.params.start_up).motility) return true;
@@ -26,8 +26,9 @@ bool is_steady(const World& world) {
   return !crosses_grid(now - s.clock.last_step, now, m.grid);
 }
 
-/// Displacements with the velocity of the last step: of constrained cells, and of all others if
-/// wanted. The velocity of the others may end, so it is not stretched over a longer step.
+/// Displacements with the velocity of the last step: those of constrained cells, and on request all
+/// others. The others are not extrapolated over a longer step than the last, since their motion may
+/// end.
 void extrapolate_moves(const World& world, double step, bool all, const Workspace& w,
                        std::vector<double>& move) {
   const State& s = world.state;
@@ -59,8 +60,8 @@ const State& choose_linearisation_point(const World& world, double step, bool fi
                     is_steady(world);
   if (!point.moves_all && !(w.constraint.prescribed_velocity && has_last_move(s))) return s;
   extrapolate_moves(world, step, point.moves_all, w, point.move);
-  // If only constrained cells are extrapolated the system is that of the present positions: F and
-  // K belong to shapes that fit together.
+  // If only constrained cells are extrapolated the system is that of the present positions, so that
+  // F and K belong to compatible shapes.
   if (!point.moves_all) return s;
   point.state = s;
   move_points(point.state, point.move);

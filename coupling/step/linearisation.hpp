@@ -1,21 +1,22 @@
 #pragma once
-/// Point of linearisation of a step: the present positions, or those that the last step's velocity
-/// leads to.
+/// Point of linearisation of a step: the present positions, or an extrapolated predictor from the
+/// velocity of the last step.
 
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 
-/// Chooses the point of linearisation: linearly implicit steps extrapolate all cells if the run
-/// asks for it and the motion is steady, and cells with a prescribed velocity always.
-/// @param first_try  no attempt at this step was rejected before
-/// @return the state to assemble at; it lives until the next call
+/// Chooses the point of linearisation. Linearly implicit steps extrapolate all cells if the run
+/// allows it and motion is steady. Cells with a prescribed velocity are always extrapolated.
+/// @param first_try  true unless an attempt at this step was rejected
+/// @return state to assemble at, valid until the next call
 const State& choose_linearisation_point(const World& world, double step, bool first_try,
                                         Workspace& work);
 
 /// Computes the products of the assembled matrices with the displacement to the point of
-/// linearisation.   @pre the system is that of the point, which is not the present state
+/// linearisation.   @pre the system is assembled at that point, which differs from the present
+/// state
 void compute_point_products(Workspace& work);
 
 }  // namespace acinus::coupling

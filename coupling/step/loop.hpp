@@ -8,29 +8,28 @@
 namespace acinus::coupling {
 
 struct StepLoop {
-  /// s; the loop ends when nothing is left.
+  /// Time left, s; the loop ends at 0.
   std::function<double()> time_left;
-  /// One accepted step no longer than its argument, s.
+  /// Advances by one accepted step no longer than its argument, s.
   std::function<StepResult(double limit)> advance;
-  /// Time to the next event, s: no step is longer. Empty: there are none.
+  /// Time to the next event, s, which bounds the step. Empty: no events.
   std::function<double()> time_to_event = nullptr;
-  /// Events and observers after an accepted step; false ends the loop. Empty: nothing.
+  /// Runs events and observers after an accepted step; false ends the loop. Empty: none.
   std::function<bool(const StepResult&)> after = nullptr;
-  /// Removes the cause of a step that could not be accepted; true if it is to be tried again.
-  /// Empty: the loop ends.
+  /// Removes the cause of a failed step; true if the step can be repeated. Empty: the loop ends.
   std::function<bool(const StepResult&)> recover = nullptr;
 };
 
-/// How a loop over steps ended.
+/// Outcome of a loop over steps.
 struct LoopResult {
   bool ok = true;  ///< false: a step could not be accepted, or was interrupted
-  int steps = 0;   ///< accepted
+  int steps = 0;   ///< accepted steps
   StepResult last;
 };
 
 LoopResult run_loop(const StepLoop& loop);
 
-/// What is left of a clock's time until it shows `end`, s.
+/// Time left on a clock until `end`, s.
 inline auto time_left_until(const Clock& clock, double end) {
   return [&clock, end] { return end - clock.time; };
 }

@@ -11,22 +11,22 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr int kMaxNewton = 40;
-constexpr int kMaxHalvings = 6;
-/// Newton is done when its last correction was below this share of the step's error tolerance.
+constexpr int kMaxNewton = 40;   ///< iterations
+constexpr int kMaxHalvings = 6;  ///< of one correction in the line search
+/// Convergence tolerance: last correction over the step's error tolerance.
 constexpr double kNewtonShare = 0.1;
-/// Closest features make kinks that Newton cannot cross; below this correction, um, it may stop at
-/// one.
+/// Correction, um, below which the iteration may stop at a kink: switches of closest features make
+/// kinks that Newton cannot cross.
 constexpr double kKink = 2e-3;
 
-/// The step to be solved.
+/// Step of backward Euler to be solved.
 struct Equation {
   const World& world;
   double step;  ///< s
   const Assembler& assemble;
 };
 
-/// State on the way of the iteration and what is assembled there.
+/// Trial state of the iteration and the system assembled there.
 struct Trial {
   State state;
   Workspace friction;  ///< Gamma at the start of the step
@@ -34,8 +34,8 @@ struct Trial {
   std::vector<double> product;
 };
 
-/// Residual of backward Euler at the trial positions, F(x + d) - Gamma/h d, into work.rhs of the
-/// trial; returns its size in the norm of the preconditioner.
+/// Computes the residual of backward Euler at the trial positions, F(x + d) - Gamma/h d, into
+/// work.rhs of the trial.   @return its norm under the preconditioner
 double newton_residual(const Equation& e, std::span<const double> d, Trial& trial) {
   trial.state = e.world.state;
   move_points(trial.state, d);
@@ -61,10 +61,10 @@ double largest_move(const Workspace& w, std::span<const double> field) {
   return largest;
 }
 
-/// Halves a correction of the displacement until the residual falls.
-/// @param[in,out] move  takes the corrected displacement
-/// @param[in,out] size  of the residual
-/// @return false if no share of the correction makes it fall
+/// Backtracking line search: halves a correction of the displacement until the residual decreases.
+/// @param[in,out] move  displacement, corrected
+/// @param[in,out] size  norm of the residual
+/// @return false if no step along the correction decreases it
 bool search_line(const Equation& equation, std::span<const double> correction,
                  std::vector<double>& move, double& size, Trial& trial) {
   std::vector<double> tried(move.size());

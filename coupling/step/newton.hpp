@@ -1,5 +1,5 @@
 #pragma once
-/// Newton's method for a step of backward Euler, Gamma/h dx = F(x + dx; t + h), of order 1.
+/// Newton's method for a step of backward Euler, Gamma/h dx = F(x + dx; t + h); first order.
 
 #include <functional>
 
@@ -11,7 +11,7 @@
 
 namespace acinus::coupling {
 
-/// Assembles the system at a state, as assemble in step.hpp does.
+/// Callback that assembles the system at a state, as assemble in step.hpp.
 using Assembler = std::function<void(const World& world, const State& at, double step,
                                      Workspace& work, const SystemTerms& terms)>;
 

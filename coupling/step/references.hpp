@@ -8,8 +8,7 @@ namespace acinus::coupling {
 
 /// Refreshes radii, rest shapes and strengths of cells, and the vessels of a flexible tree.
 /// @param at   positions of the tree
-/// @param end  s, clock time of the references. That of the end of the step follows growth without
-///             a lag where motion is slow.
+/// @param end  s, clock time of the references; the end of the step follows growth without lag
 void refresh_references(const World& world, const State& at, double end, Workspace& work);
 
 }  // namespace acinus::coupling

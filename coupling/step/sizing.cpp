@@ -12,7 +12,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// Rows of the nodes of the tree that are anchored, and of their rotations.
+/// Rows of anchored tree nodes and of their rotations.
 std::vector<std::size_t> anchored_rows(const World& world) {
   std::vector<std::size_t> rows;
   if (world.state.tree.node.empty()) return rows;

@@ -11,19 +11,19 @@
 namespace acinus::coupling {
 namespace {
 
-/// A step whose solve failed is tried again with twice the iterations, so often at most.
+/// Largest number of retries of a failed solve, each with twice the iterations.
 constexpr int kMostDoublings = 5;
 constexpr int kMostIterations = std::numeric_limits<int>::max();
 
-/// Solves for the whole displacement from the guess in w.move.
+/// Solves for the whole displacement from the initial guess in w.move.
 /// @param from_point  the guess is the displacement to the point of linearisation
 Status solve_from_guess(const World& world, Workspace& w, bool from_point, Effort& effort) {
   for_each_own_number(
       w.system, [&](std::size_t k) { w.rhs[k] = w.system.force[k] + w.system.external_force[k]; });
   LinearisationPoint& point = w.linearisation;
   if (!point.is_elsewhere()) return solve_system(world, w, effort);
-  // A (d - point) = F - Gamma/h point, solved for d: the tolerance refers to the whole way. The way
-  // of constrained cells is known: what ties them would drown all other forces.
+  // A (d - point) = F - Gamma/h point, solved for d: the tolerance refers to the whole
+  // displacement. That of constrained cells is known: their penalty forces would exceed all others.
   set_size(w.rest_of_move, w.move.size());
   for_each_own_number(w.system, [&](std::size_t k) { w.rest_of_move[k] = point.move[k]; });
   std::swap(w.rest_of_move, w.move);
@@ -68,8 +68,8 @@ Status solve_system(const World& world, Workspace& w, Effort& effort,
                     std::span<const double> product) {
   const auto scope = w.timings.scope("solve");
   solve::CgOptions options = world.params.numerics.cg;
-  // Cells afloat in liquid hang together by little else than adhesion: such a system is no easier
-  // in a shorter step.
+  // Cells suspended in liquid are coupled by little but adhesion: a shorter step does not improve
+  // the conditioning.
   for (int k = 0; k < std::min(w.failed_solves, kMostDoublings); ++k)
     options.max_iterations +=
         std::min(options.max_iterations, kMostIterations - options.max_iterations);
@@ -80,7 +80,7 @@ Status solve_system(const World& world, Workspace& w, Effort& effort,
   effort.cg_iterations += result.iterations;
   ++effort.solves;
   if (!result.status.ok) return result.status;
-  // A rigid error this small next to the edge of a mesh is below the solver's own tolerance.
+  // A rigid error this small relative to a mesh edge is below the tolerance of the solver.
   const solve::RigidResult rigid = solve::correct_rigid_modes(
       w.op, w.cg.residual, w.move, {w.position, w.active}, options.tolerance, w.rigid);
   if (rigid.corrected_groups > 0) {

@@ -10,17 +10,17 @@
 
 namespace acinus::coupling {
 
-/// Solves with the system's own forces as right-hand side. The initial guess is the displacement
-/// to the point of linearisation, or else that with the last step's velocity. All functions here
-/// add to `effort`.
+/// Solves with the forces of the system as right-hand side (warm start). The initial guess is the
+/// displacement to the point of linearisation, else that of the last step's velocity. All functions
+/// of this file add to `effort`.
 [[nodiscard]] Status solve_step(const World& world, double step, Workspace& work, Effort& effort);
 
-/// Solves once more after the system changed, with the displacement found before as initial guess.
+/// Solves a changed system again, with the previous displacement as initial guess.
 [[nodiscard]] Status solve_again(const World& world, Workspace& work, Effort& effort);
 
-/// Solves for work.move from the guess it holds and the right-hand side in work.rhs, then corrects
+/// Solves for work.move from its initial guess and the right-hand side in work.rhs, then corrects
 /// the rigid motion of every cluster.
-/// @param product  the matrix times the guess if it is known, else empty
+/// @param product  matrix times the initial guess, or empty
 [[nodiscard]] Status solve_system(const World& world, Workspace& work, Effort& effort,
                                   std::span<const double> product = {});
 

@@ -23,7 +23,7 @@ Status solve(const World& world, double step, Workspace& w, Effort& effort) {
   Status status = solve_step(world, step, w, effort);
   if (!status.ok) return status;
   if (n.integrator == Integrator::kExplicitEuler) return check_stability(world, step, w);
-  // Without step-size control steps are as they come, for tables of their order.
+  // Without step-size control there is no active set, for measurements of the order.
   if (n.adaptive) status = settle_active_set(world, w, effort);
   if (!status.ok || n.integrator == Integrator::kLinearlyImplicit) return status;
   const Assembler assemble_at = [](const World& in, const State& at, double h, Workspace& work,

@@ -6,11 +6,11 @@
 
 namespace acinus::coupling {
 
-/// Terms that enter the system.
+/// Terms of the assembled system.
 struct SystemTerms {
-  bool interface = true;   ///< contacts between the two models; tests leave them out
-  bool stiffness = true;   ///< false: friction only, as explicit methods need it
-  bool end_values = true;  ///< references and moving walls of the end of the step, else its start
+  bool interface = true;   ///< contacts between the two models; false only in tests
+  bool stiffness = true;   ///< false: friction only, for explicit methods
+  bool end_values = true;  ///< references and walls at the end of the step, else its start
 };
 
 /// Assembles forces, friction and stiffness of cells, contacts, apparatus, vessels and

@@ -8,10 +8,10 @@
 namespace acinus::coupling {
 namespace {
 
-/// Gap, um, up to which a cell counts as a neighbour of another.
+/// Largest gap, um, of neighbours included in the subworld.
 constexpr double kSettleReach = 0.5;
-/// How long new cells settle ahead of all others, in steps of the whole world: long enough that
-/// what is stiff has come to rest, and nothing next to the time in which tissue flows.
+/// Settling time of new cells, in steps of the whole world: long enough for stiff modes to relax,
+/// negligible against the flow of tissue.
 constexpr double kSteps = 1;
 
 double pressure_of(const World& world, std::size_t lane, const std::vector<Vec3>& node) {

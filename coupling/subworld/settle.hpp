@@ -1,5 +1,5 @@
 #pragma once
-/// New deformable cells come to rest among their neighbours before the world goes on.
+/// Settling of new deformable cells among their neighbours before the next step of the whole world.
 
 #include <cstdint>
 #include <map>
@@ -14,13 +14,12 @@ struct Settled {
   bool ok = true;
   std::string cause;
   int steps = 0;
-  std::map<std::int64_t, double> shift;     ///< um, farthest a node of each cell moved
+  std::map<std::int64_t, double> shift;     ///< um, largest node displacement of each cell
   std::map<std::int64_t, double> pressure;  ///< kPa, of each cell's cytosol
 };
 
-/// Lets new deformable cells settle against each other and their neighbours, which stand still, so
-/// that the next step of the whole world is an ordinary one. Without success all stay where they
-/// were.
+/// Settles new deformable cells against each other and their fixed neighbours, so that the next
+/// step of the whole world has ordinary length. After a failure all cells keep their positions.
 /// @param cells  lineages
 Settled settle_cells(World& world, const std::vector<std::int64_t>& cells);
 

@@ -12,7 +12,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// First step in a subworld at rest, s: contacts just made are felt before anything has moved far.
+/// First step of a subworld at rest, s: short, so that new contacts act before large motion.
 constexpr double kFirstSubworldStep = 1;
 
 Box box_of(const State& s, std::size_t lane) {
@@ -25,7 +25,7 @@ Box box_of(const State& s, std::size_t lane) {
 
 Ramp frozen(const Ramp& r, double time) { return Ramp::constant(r.at(time)); }
 
-/// True if a workspace made for one of two states serves the other.
+/// True if the workspace of one state fits the other.
 bool have_same_cells(const State& a, const State& b) {
   return a.dcm.lineage == b.dcm.lineage && a.cbm.lineage == b.cbm.lineage &&
          std::ranges::equal(a.dcm.group, b.dcm.group, [](const dcm::Group& g, const dcm::Group& h) {
@@ -33,7 +33,7 @@ bool have_same_cells(const State& a, const State& b) {
          });
 }
 
-/// Calls f with where each point that moves stands in the subworld and in the whole.
+/// Calls f(address in the subworld, address in the whole world) for every moving point.
 template <class F>
 void for_each_moving_point(const Subworld& sub, const State& to, F f) {
   const State& from = sub.world.state;
@@ -47,7 +47,7 @@ void for_each_moving_point(const Subworld& sub, const State& to, F f) {
     f(cbm::cell_address(from.dcm.n_row(), k), cbm::cell_address(to.dcm.n_row(), sub.moving.cbm[k]));
 }
 
-/// Contacts of spheres that moved replace those they had.
+/// Replaces the contacts of moved spheres in the whole world.
 void write_touching(const Subworld& sub, cbm::State& to) {
   std::vector<std::uint8_t> moves(to.n_cell(), 0);
   for (std::size_t c : sub.moving.cbm) moves[c] = 1;

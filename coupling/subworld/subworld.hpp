@@ -1,6 +1,6 @@
 #pragma once
-/// A small world cut out of a large one: a few cells that move, and their neighbours constrained.
-/// Division, sleep and change of model step such worlds and write the cells back by index.
+/// Subworld: a few moving cells cut out of a world, with their neighbours constrained. Division,
+/// sleep and change of model step subworlds and write the cells back by index.
 
 #include <cstddef>
 #include <string>
@@ -11,47 +11,48 @@
 
 namespace acinus::coupling {
 
-/// Some cells of a world: lanes of deformable cells, indices of spheres. Ascending.
+/// Set of cells: lanes of deformable cells, indices of spheres; ascending.
 struct CellSet {
   std::vector<std::size_t> dcm, cbm;
   bool empty() const { return dcm.empty() && cbm.empty(); }
 };
 
-/// Cells of the other bodies whose boxes come within `reach` of these, um.
+/// Neighbours of a set of cells: the others whose bounding boxes come within `reach`, um.
 CellSet find_neighbours(const World& world, const CellSet& cells, double reach);
 
 struct Subworld {
   World world;  ///< moving cells first
   Workspace work;
-  CellSet moving, constrained;    ///< cells of the large world
-  std::vector<std::size_t> lane;  ///< [moving.dcm] where they stand here
+  CellSet moving, constrained;    ///< cells of the whole world
+  std::vector<std::size_t> lane;  ///< [moving.dcm] their lanes in the subworld
 };
 
-/// Copies the cells as they are, with clock and references, into a subworld whose parameters are
-/// set; its workspace lives on while the same cells are in it.
+/// Copies cells with clock and references into a subworld whose parameters are set. Its workspace
+/// is kept while the set of cells is the same.
 void take_cells(const State& state, CellSet moving, CellSet constrained, Subworld& sub);
 
-/// A subworld in which nothing moves by itself: reference volumes and walls stay what they are at
-/// this moment, no cell is motile, and its clock starts short steps.
+/// Extracts a subworld at rest: reference volumes and walls are frozen at the present time, no cell
+/// is motile, and the clock starts with short steps.
 void extract_at_rest(const World& world, CellSet moving, CellSet constrained, Subworld& sub);
 
-/// How a subworld came to rest.
+/// Outcome of settling a subworld.
 struct Settling {
   bool ok = true;
   std::string cause;
   int steps = 0;
 };
 
-/// Steps the subworld for some time, s.
+/// Advances the subworld for a duration, s.
 Settling relax(Subworld& sub, double duration);
 
-/// Writes positions of the moving cells back, and the contacts of moving spheres.
+/// Writes positions of the moving cells and contacts of moving spheres back to the whole world.
 void write_positions(const Subworld& sub, State& state);
 
-/// Writes last moves of the moving cells back, times `ratio`.
+/// Writes last moves of the moving cells, times `ratio`, back to the whole world.
 void write_last_moves(const Subworld& sub, double ratio, State& state);
 
-/// Writes positions and last moves back; these as far as a last step of the other length went.
+/// Writes positions and last moves back; the moves are scaled to the length of the last step of the
+/// whole world.
 void write_moved(const Subworld& sub, State& state);
 
 }  // namespace acinus::coupling

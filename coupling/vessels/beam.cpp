@@ -6,12 +6,12 @@
 namespace acinus::coupling {
 namespace {
 
-/// A beam in its present place.
+/// Beam in its present configuration.
 struct Placed {
   double length;
   Vec3 chord;  ///< unit
   std::array<Vec3, 2> axis;
-  Vec3 sum, difference;  ///< of the axes
+  Vec3 sum, difference;  ///< of the axis directions
 };
 
 Placed place(const BeamEnds& e) {
@@ -31,7 +31,7 @@ double square(double x) { return x * x; }
 
 }  // namespace
 
-BeamLoad find_load(const Beam& b, const BeamEnds& e) {
+BeamLoad compute_load(const Beam& b, const BeamEnds& e) {
   const Placed p = place(e);
   BeamLoad load;
   const double longer = p.length - b.length;
@@ -55,7 +55,7 @@ BeamLoad find_load(const Beam& b, const BeamEnds& e) {
   return load;
 }
 
-BeamStiffness find_stiffness(const Beam& b, const BeamEnds& e) {
+BeamStiffness compute_stiffness(const Beam& b, const BeamEnds& e) {
   const Placed p = place(e);
   BeamStiffness s;
   s.along = p.chord;

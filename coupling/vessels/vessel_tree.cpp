@@ -8,13 +8,13 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr int kLane = 0;  ///< where the tree stands in its block
+constexpr int kLane = 0;  ///< lane of the tree in its block
 
 double mean_radius(const geometry::Network& n, std::size_t segment) {
   return 0.5 * (n.radius[segment][0] + n.radius[segment][1]);
 }
 
-/// Numbers of the points of a segment: its two nodes and their rotations.
+/// Point numbers of a segment: two nodes, then their rotations.
 std::array<int, 4> points_of(const VesselTree& tree, std::size_t segment) {
   const auto [a, b] = tree.rest.segment[segment];
   const int n = static_cast<int>(tree.n_node());
@@ -31,8 +31,8 @@ BeamEnds ends_of(const VesselTree& tree, const TreeState& state, std::size_t seg
   return ends;
 }
 
-/// How many segments every node has.
-std::vector<int> find_degrees(const geometry::Network& n) {
+/// Number of segments at every node.
+std::vector<int> count_segments(const geometry::Network& n) {
   std::vector<int> degree(n.node.size(), 0);
   for (const auto& segment : n.segment)
     for (const int node : segment) ++degree[node];
@@ -53,7 +53,7 @@ void put(const Vec3& v, std::size_t number, float* element) {
     element[(number + k) * kLanes + kLane] = static_cast<float>(v[static_cast<int>(k)]);
 }
 
-/// A spring of the block: `along` on the direction u, `across` on all others.
+/// Spring of the block: `along` in the direction u, `across` in all others.
 void put_spring(const Vec3& u, double along, double across, float* element) {
   put(u, 0, element);
   element[3 * kLanes + kLane] = static_cast<float>(along - across);
@@ -63,7 +63,7 @@ void put_spring(const Vec3& u, double along, double across, float* element) {
 }  // namespace
 
 bool VesselTree::has_ends() const {
-  const std::vector<int> degree = find_degrees(rest);
+  const std::vector<int> degree = count_segments(rest);
   return std::ranges::find(degree, 1) != degree.end();
 }
 
@@ -87,7 +87,7 @@ VesselTree make_tree(geometry::Network rest, const TubeMaterial& m, VesselAnchor
       tree.turn_friction[n] += half * radius * radius;
     }
   }
-  for (const int d : find_degrees(tree.rest))
+  for (const int d : count_segments(tree.rest))
     tree.anchored.push_back(d == 0 || (d == 1 && anchors == VesselAnchors::kEnds) ? 1 : 0);
   tree.pattern.n_place = static_cast<int>(n_node);
   tree.pattern.n_point = static_cast<int>(2 * n_node);
@@ -156,13 +156,13 @@ void add_tree_loads(const VesselTree& tree, const TreeState& s, const solve::Blo
   float* beam = system.beam.data() + block.first_beam * solve::kBeamStride;
   for (std::size_t k = 0; k < tree.beam.size(); ++k) {
     const BeamEnds ends = ends_of(tree, s, k);
-    const BeamLoad load = find_load(tree.beam[k], ends);
+    const BeamLoad load = compute_load(tree.beam[k], ends);
     const std::array<int, 4> point = points_of(tree, k);
     add_point(system.force.data(), address(point[0]), -load.force);
     add_point(system.force.data(), address(point[1]), load.force);
     for (std::size_t end = 0; end < 2; ++end)
       add_point(system.force.data(), address(point[2 + end]), load.moment[end]);
-    const BeamStiffness stiffness = find_stiffness(tree.beam[k], ends);
+    const BeamStiffness stiffness = compute_stiffness(tree.beam[k], ends);
     put_spring(stiffness.along, scale * stiffness.axial, scale * stiffness.lateral, spring);
     spring += solve::kSpringStride;
     put_spring(stiffness.along, scale * stiffness.twist, scale * stiffness.bend, spring);

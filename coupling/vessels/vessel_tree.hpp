@@ -1,7 +1,6 @@
 #pragma once
-/// A network of vessels as elastic tubes that cells bend: nodes with a place and a rotation, a beam
-/// per segment, rigid joints. Not in [VanLiedekerke2020], whose vessels stand still; E_sin and
-/// nu_sin are those of its Table 1.
+/// Flexible network of vessels: nodes with position and rotation, a beam per segment, rigid joints.
+/// Not in [VanLiedekerke2020], whose vessels are rigid; E_sin and nu_sin are those of its Table 1.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -15,7 +14,7 @@
 
 namespace acinus::coupling {
 
-/// What holds the ends of the tree, nodes with one segment.
+/// Anchoring of the ends of the tree, the nodes with one segment.
 enum class VesselAnchors { kEnds, kNone };
 
 struct TubeMaterial {
@@ -23,10 +22,10 @@ struct TubeMaterial {
   double poisson = 0;   ///< 1
   double wall = 0;      ///< um, thickness
   double pressure = 0;  ///< kPa, inside over outside
-  double friction = 0;  ///< nN s/um^3, of the surface with what is around it
+  double friction = 0;  ///< nN s/um^3, of the surface with its environment
 };
 
-/// What does not change in a run. Without segments there is no tree: vessels stand still.
+/// Constants of a vessel tree. Without segments there is no tree and vessels are rigid.
 struct VesselTree {
   geometry::Network rest;  ///< without pressure
   TubeMaterial material;
@@ -35,41 +34,41 @@ struct VesselTree {
   std::vector<Mat3> frame;            ///< [segment] axis at rest and two directions across
   std::vector<double> friction;       ///< [node] nN s/um
   std::vector<double> turn_friction;  ///< [node] nN um s
-  /// [node] 1: neither moves nor turns. So are nodes without a segment, which nothing moves.
+  /// [node] 1: fixed in position and rotation, as are nodes without a segment
   std::vector<std::uint8_t> anchored;
   solve::BlockPattern pattern;  ///< nodes, then their rotations
 
   bool exists() const { return !rest.segment.empty(); }
-  bool has_ends() const;  ///< nodes with one segment
+  bool has_ends() const;  ///< true if a node has one segment
   std::size_t n_node() const { return rest.node.size(); }
 };
 
 VesselTree make_tree(geometry::Network rest, const TubeMaterial& material, VesselAnchors anchors);
 
-/// Where the nodes of a tree are: what a checkpoint holds. Empty without one.
+/// State of a tree, as in checkpoints; empty without a tree.
 struct TreeState {
   std::vector<Vec3> node;                    ///< um
-  std::vector<Eigen::Quaterniond> rotation;  ///< from rest
+  std::vector<Eigen::Quaterniond> rotation;  ///< relative to rest
 
-  /// Of unknowns: a place and a rotation each.
+  /// Number of rows of unknowns: position and rotation of every node.
   std::size_t n_row() const { return 2 * node.size(); }
 };
 
 TreeState at_rest(const VesselTree& tree);
 
-/// The tree is one body, in the first lane of its block.
+/// Moves the tree, one body in the first lane of its block.
 /// @param by  [n_row][3][lane] um, and rotations on a lever of 1 um
 void move_tree(std::span<const double> by, TreeState& state);
 
-/// The places of its unknowns; that of a rotation is its node's.
+/// Writes the positions of its unknowns; a rotation has the position of its node.
 /// @param out  [n_row][3][lane] um
 void copy_places(const TreeState& state, std::span<double> out);
 
-/// Gives vessels the present places and radii of the tree. Without nodes in the state, as in a
-/// subworld, they stay where they are.
+/// Updates positions and radii of vessels from the tree. Without nodes in the state, as in a
+/// subworld, vessels are unchanged.
 void place_vessels(const VesselTree& tree, const TreeState& state, contact::Vessels& vessels);
 
-/// Largest distance of a node from its place at rest, um.
+/// Largest displacement of a node from rest, um.
 double largest_displacement(const VesselTree& tree, const TreeState& state);
 
 /// Adds forces, stiffness and friction of the tree to its block.

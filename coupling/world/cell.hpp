@@ -1,5 +1,5 @@
 #pragma once
-/// Cells of either model alike, for what happens to whole cells.
+/// Cells of either model, addressed alike.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,11 +15,11 @@ inline std::size_t cell_index(const State& s, std::size_t sphere) {
   return s.dcm.n_lane() + sphere;
 }
 
-/// One cell of either model as the rules of life see it.
+/// Cell of either model.
 struct Cell {
   bool deformable;
   std::size_t at;     ///< lane or sphere
-  std::size_t index;  ///< into arrays over [dcm lanes, then cbm cells]
+  std::size_t index;  ///< index into arrays over [dcm lanes, then cbm cells]
 };
 
 template <class F>
@@ -51,11 +51,11 @@ inline const CycleParams& cycle_of(const Params& p, const State& s, const Cell& 
 using CellIndex = std::unordered_map<std::int64_t, Cell>;
 CellIndex index_cells(const State& state);
 
-/// The living cell of a lineage, if there is one. Linear in the number of cells: for many cells use
-/// index_cells.
+/// Finds the living cell of a lineage. Linear in the number of cells; index_cells serves repeated
+/// searches.
 std::optional<Cell> find_cell(const State& state, std::int64_t lineage);
 
-/// Calls f with where each point of a cell stands among all unknowns.
+/// Calls f with the address of each point of a cell among all unknowns.
 template <class F>
 void for_each_point(const State& s, const Cell& c, F f) {
   if (!c.deformable) return f(cbm::cell_address(s.dcm.n_row(), c.at));

@@ -12,7 +12,7 @@ struct CellForces {
   std::vector<Vec3> dcm, cbm;
 };
 
-/// Friction of each cell with the medium, nN s/um; negative: computed by another process.
+/// Friction of each cell with the medium, nN s/um; negative if another process computes it.
 struct MediumFriction {
   std::vector<double> dcm, cbm;
 };

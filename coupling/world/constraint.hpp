@@ -1,7 +1,6 @@
 #pragma once
-/// Cells that take part in a step but do not follow from its balance of forces: they stand still or
-/// go on with a prescribed velocity, and what touches them feels them there. Forces within such a
-/// cell are not computed.
+/// Constrained cells of a step: at rest or with a prescribed velocity, independent of their balance
+/// of forces. Their contacts act on others; forces within them are not computed.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,10 +9,10 @@
 namespace acinus::coupling {
 
 struct Constraint {
-  /// [dcm lanes, then cbm cells] 1: constrained; empty: none. To be set before size_workspace.
+  /// [dcm lanes, then cbm cells] 1: constrained; empty: none. Set before size_workspace.
   std::vector<std::uint8_t> cell;
-  /// Constrained cells go on with the velocity of their last move, which linearly implicit steps
-  /// only know how to do; else they stand still.
+  /// True if constrained cells keep the velocity of their last move (linearly implicit steps only);
+  /// else they are at rest.
   bool prescribed_velocity = false;
   /// Rows of anchored vessels, in their first lane; written by: size_workspace.
   std::vector<std::size_t> anchored_row;

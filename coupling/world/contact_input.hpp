@@ -15,7 +15,7 @@ struct PhaseParams {
 };
 PhaseParams phase_params(const World& world);
 
-/// Views of everything that contacts depend on; `phase` has to outlive them.
+/// Views of everything that contacts depend on; `phase` must outlive them.
 /// @param at         positions of all cells
 /// @param wall_time  s since t = 0, time of the positions of moving walls
 /// @pre the references in `work` are those of the step

@@ -1,5 +1,5 @@
 #pragma once
-/// How cells grow, divide and die: constants of a cell type, and what is kept of every cell.
+/// Cell cycle: constants of growth, division and death per cell type, and the record of every cell.
 
 #include <cstdint>
 #include <functional>
@@ -23,9 +23,9 @@ struct Inhibition {
 };
 
 struct DeathParams {
-  bool lysis = false;          ///< false: the cell is gone at once
-  double duration = 6 * 3600;  ///< s of shrinking
-  double final_volume = 0.2;   ///< share of the volume at which it is removed
+  bool lysis = false;          ///< false: removal at once
+  double duration = 6 * 3600;  ///< s, duration of lysis
+  double final_volume = 0.2;   ///< share of the volume at removal
   int type = -1;               ///< cell type with the constants of lysis
 };
 
@@ -33,39 +33,39 @@ struct DeathParams {
 struct CycleParams {
   double time = 0;          ///< s, mean cycle time; 0: cells of this type neither grow nor divide
   double spread = 0.1;      ///< relative standard deviation, truncated at 3
-  double mitosis = 3600;    ///< s over which the cortex of new daughters forgets the shape of birth
+  double mitosis = 3600;    ///< s, relaxation time of the shape of birth of new daughters
   double force_ramp = 0.1;  ///< share of the cycle over which forces on new spheres rise
   DivisionAxis axis = DivisionAxis::kRandom;
-  Vec3 direction = Vec3::UnitX();  ///< with kGiven: from one daughter to the other
-  bool random_start = false;       ///< cells of the start are anywhere in their cycle
+  Vec3 direction = Vec3::UnitX();  ///< kGiven: division axis
+  bool random_start = false;       ///< true: initial cells have random ages in their cycle
   Inhibition inhibition;
   DeathParams death;
 };
 
-/// Cells that rest, or die, by decree.
+/// Rule that makes cells rest or die.
 struct LifeRule {
   bool die = false;
-  std::function<bool(const Vec3&)> inside;  ///< of a cell's centre; empty: everywhere
+  std::function<bool(const Vec3&)> inside;  ///< test of a cell's centre; empty: everywhere
   std::vector<std::int64_t> cells;          ///< lineage numbers; empty: all
-  bool descendants = true;                  ///< `cells` are founders: their offspring too
+  bool descendants = true;                  ///< true: offspring of `cells` too
   double from = 0, until = std::numeric_limits<double>::infinity();  ///< s since t = 0
   double share = 1;                                                  ///< probability per cell
 };
 
-/// Cells of some layers enter the cycle at this rate during a time window.
+/// Rate at which cells of some layers enter the cycle during a time window.
 struct EntryRate {
   int first_layer = 1, last_layer = 1;
   double rate = 0;                                                   ///< 1/s
   double from = 0, until = std::numeric_limits<double>::infinity();  ///< s since t = 0
 };
 
-/// Cells rest until they enter the cycle, and rest again after division.
+/// Proliferation pattern: cells are quiescent until they enter the cycle, and again after division.
 struct Proliferation {
   std::vector<EntryRate> rate;
   double thickness = 24;           ///< um, of a layer
-  bool edge_at_start = false;      ///< layers are counted from start_edge for ever
+  bool edge_at_start = false;      ///< true: layers are counted from start_edge at all times
   double start_edge = 0;           ///< um from the vein axis
-  int cells = 0;                   ///< wanted in the end; 0: no limit
+  int cells = 0;                   ///< target number; 0: no limit
   Vec3 axis_point = Vec3::Zero();  ///< the vein axis is vertical through it
 };
 
@@ -73,38 +73,39 @@ struct LifeParams {
   std::vector<CycleParams> type;  ///< [cell type]
   std::vector<LifeRule> rule;
   std::optional<Proliferation> proliferation;  ///< empty: all cells are always in the cycle
-  double grid = 600;                           ///< s, how often rules and inhibition are looked at
+  double grid = 600;                           ///< s between updates of rules and inhibition
   std::uint64_t seed = 1;
-  bool remesh = true;  ///< meshes that degenerate are mended
+  bool remesh = true;  ///< true: degenerate meshes are repaired
 };
 
-/// kRest: held in the cycle by a rule or by inhibition; kQuiescent: not in the cycle.
+/// Stage of a cell in its life. kRest: arrested by a rule or by inhibition; kQuiescent: outside the
+/// cycle.
 enum class Fate : std::int8_t { kIdle, kGrow, kRest, kLyse, kQuiescent };
 
-/// What is kept of a cell's life.
+/// Record of the life of a cell.
 struct Cycle {
-  std::int64_t parent = -1;   ///< lineage; -1: there from the start
-  std::int64_t founder = -1;  ///< lineage of the ancestor that was there from the start
+  std::int64_t parent = -1;   ///< lineage; -1: initial cell
+  std::int64_t founder = -1;  ///< lineage of its initial ancestor
   Fate fate = Fate::kIdle;
   double birth = 0;         ///< s, clock time
   double birth_volume = 0;  ///< um^3; a cell divides when its reference volume has doubled
-  double duration = 0;      ///< s, its own cycle time without inhibition
-  double wait_until = 0;    ///< s, clock time before which a failed division is not tried again
+  double duration = 0;      ///< s, cycle time without inhibition
+  double wait_until = 0;    ///< s, clock time of the next attempt after a failed division
 };
 
-/// Mean cycle time of the type with the cell's own Gaussian deviation, s.
+/// Cycle time of a cell, s: mean of the type with a Gaussian deviation.
 double draw_cycle_time(const CycleParams& p, std::uint64_t seed, std::int64_t lineage);
 
-/// Share of its cycle a cell of the start has behind it, [0, 1): its reference volume is (1 + age)
-/// times that at birth. 0 unless the type starts at random.
+/// Initial age of a cell as a share of its cycle, [0, 1): its reference volume is (1 + age) times
+/// that at birth. 0 unless the type starts at random ages.
 double draw_start_age(const CycleParams& p, std::uint64_t seed, std::int64_t lineage);
 
-/// Reference volume from now on: grows at alpha = birth volume / cycle time until it has doubled.
+/// Reference volume over time: grows at alpha = birth volume / cycle time until doubled.
 /// [VanLiedekerke2020, Eq. (18)]
 /// @param factor  of growth_factor; 0 keeps the volume
 Ramp growth_from(const Cycle& cycle, double volume_now, double time, double factor);
 
-/// What inhibition looks at.
+/// Input of contact inhibition.
 struct Crowding {
   double pressure = 0;         ///< kPa, contact pressure
   double relative_volume = 1;  ///< V / V0

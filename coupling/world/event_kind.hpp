@@ -6,17 +6,17 @@
 namespace acinus::coupling {
 
 enum class EventKind : std::uint8_t {
-  kDivision,        ///< cells: mother, daughter, daughter
-  kDivisionWaits,   ///< no plane divides the cell cleanly
-  kDeath,           ///< a cell is removed
-  kDeathEarly,      ///< a dissolving cell is removed before it has shrunk
-  kLysis,           ///< a cell begins to dissolve
-  kRemeshed,        ///< a degenerate mesh is replaced
-  kMeshDegenerate,  ///< a degenerate mesh stays
-  kSettlingFailed,  ///< new meshes did not settle among their neighbours
-  kPromotion,       ///< a sphere becomes deformable
-  kPromotionWaits,  ///< it finds no shape
-  kDemotion         ///< a deformable cell becomes a sphere
+  kDivision,        ///< division; cells: mother, daughter, daughter
+  kDivisionWaits,   ///< postponed division: no plane divides the cell cleanly
+  kDeath,           ///< removal of a cell
+  kDeathEarly,      ///< removal of a dissolving cell before it has shrunk
+  kLysis,           ///< start of lysis
+  kRemeshed,        ///< replacement of a degenerate mesh
+  kMeshDegenerate,  ///< degenerate mesh that could not be repaired
+  kSettlingFailed,  ///< failed settling of new meshes
+  kPromotion,       ///< change of a sphere to a deformable cell
+  kPromotionWaits,  ///< postponed promotion: no acceptable shape
+  kDemotion         ///< change of a deformable cell to a sphere
 };
 
 /// Name in run files and messages.

@@ -7,7 +7,7 @@
 namespace acinus::coupling {
 namespace {
 
-Vec3 find_apart(const State& s, const CellIndex& cells, const FadingForce& f) {
+Vec3 compute_separation(const State& s, const CellIndex& cells, const FadingForce& f) {
   const Vec3 a = center_of(s, cells.at(f.a));
   return f.b == kNoPartner ? a : Vec3(a - center_of(s, cells.at(f.b)));
 }
@@ -31,7 +31,7 @@ void add_fading_forces(const State& s, double time, CellForces& forces) {
   };
   for (const FadingForce& f : s.fading) {
     if (!has_both(cells, f)) continue;
-    const Vec3 force = left_of(f, time, find_apart(s, cells, f)) * f.force;
+    const Vec3 force = left_of(f, time, compute_separation(s, cells, f)) * f.force;
     add(f.a, force);
     if (f.b != kNoPartner) add(f.b, -force);
   }
@@ -42,7 +42,7 @@ void keep_fading(const State& before, State& s) {
   const auto was = index_cells(before), is = index_cells(s);
   for (FadingForce& f : s.fading)
     if (has_both(was, f) && has_both(is, f))
-      f.apart += find_apart(s, is, f) - find_apart(before, was, f);
+      f.apart += compute_separation(s, is, f) - compute_separation(before, was, f);
 }
 
 void forget_faded(State& s) {

@@ -1,5 +1,5 @@
 #pragma once
-/// How the mesh of a cell is turned where no one says it.
+/// Default orientation of the mesh of a cell.
 
 #include <cstdint>
 
@@ -8,7 +8,7 @@
 
 namespace acinus::coupling {
 
-/// A rotation drawn evenly from all, the same for a cell whenever it is drawn.
+/// Rotation drawn uniformly from all, reproducible per seed and lineage.
 inline Mat3 random_orientation(std::uint64_t seed, std::int64_t lineage) {
   UniformStream r(seed, Purpose::kPlacement, static_cast<std::uint64_t>(lineage) + 1);
   Eigen::Quaterniond q(r.normal(), r.normal(), r.normal(), r.normal());

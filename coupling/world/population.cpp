@@ -8,13 +8,14 @@
 namespace acinus::coupling {
 namespace {
 
-/// A value per cell of another state, or a default where that state has none.
+/// Value of a cell in another state, or a default where that state has none.
 template <class T>
 T value_of(const std::vector<T>& values, std::size_t index, T otherwise) {
   return index < values.size() ? values[index] : otherwise;
 }
 
-/// @param center_of  place of a member
+/// Sorts members along a space-filling curve.
+/// @param center_of  position of a member
 template <class CenterOf>
 void sort_along_curve(std::vector<SelectedCell<State>>& members, const CenterOf& center_of) {
   constexpr std::size_t kWorthThreads = 200;

@@ -1,5 +1,5 @@
 #pragma once
-/// Regions of tissue: parts of space, or what is near something that moves or feels something.
+/// Regions of tissue: parts of space, neighbourhoods of moving objects, or cells under pressure.
 
 #include <algorithm>
 #include <cmath>
@@ -19,12 +19,12 @@ enum class RegionKind {
   kAll,
   // Regions that move with the tissue; for the zoom only.
   kFront,     ///< near the edge of the lesion
-  kCells,     ///< near some cells
+  kCells,     ///< near listed cells
   kVessel,    ///< near vessels
-  kPressure,  ///< cells that are pressed
+  kPressure,  ///< cells under contact pressure
 };
 
-/// Which members count depends on `kind`.
+/// Region of tissue; the members in use depend on `kind`.
 struct Region {
   RegionKind kind = RegionKind::kNone;
   Vec3 center = Vec3::Zero();                    ///< sphere; um
@@ -32,17 +32,17 @@ struct Region {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< box; um
   Vec3 point = Vec3::Zero(),
        normal = Vec3::UnitZ();  ///< half_space: (x - point).normal <= 0 is inside
-  /// axis_distance: from the vein axis; front, cells and vessel: max_distance from what is
-  /// followed, um
+  /// axis_distance: from the vein axis; front, cells and vessel: max_distance from the followed
+  /// object, um
   double min_distance = 0, max_distance = 0;
   std::vector<std::int64_t> cells;  ///< cells: lineages
-  bool offspring = true;            ///< cells: descendants are followed too
-  double above = 0, below = 0;      ///< pressure: kPa, at which a cell enters and leaves
+  bool offspring = true;            ///< cells: true: descendants are followed as well
+  double above = 0, below = 0;      ///< pressure: kPa, thresholds of entry and exit
 };
 
 inline bool moves(RegionKind kind) { return kind > RegionKind::kAll; }
 
-/// How far outside a part of space a place is, um; 0 and less: inside.
+/// Distance of a point outside a part of space, um; 0 and less inside.
 /// @param axis_point  the vein axis is vertical through it      @pre the region does not move
 inline double distance_outside(const Region& r, const Vec3& axis_point, const Vec3& x) {
   switch (r.kind) {
@@ -61,7 +61,7 @@ inline double distance_outside(const Region& r, const Vec3& axis_point, const Ve
   }
 }
 
-/// Whether a place lies in a part of space.
+/// True if a point lies in a part of space.
 inline bool in_region(const Region& r, const Vec3& axis_point, const Vec3& x) {
   return distance_outside(r, axis_point, x) <= 0;
 }

@@ -9,12 +9,12 @@
 namespace acinus::coupling {
 namespace {
 
-/// Blocks a process needs at least for sharing to be worth anything.
+/// Least number of blocks per process for which sharing pays.
 constexpr std::size_t kLeastBlocks = 2;
-/// A guess before anything is measured: a point costs as much whatever it belongs to, s per step.
+/// Initial estimate of the cost of a point, s per step, the same for all bodies.
 constexpr double kPointCost = 2e-6;
 
-/// Every block to anyone.
+/// Assigns every block to a random process.
 std::vector<int> draw_owners(const World& world, std::size_t n_block) {
   std::vector<int> owner;
   const auto seed = static_cast<std::uint64_t>(world.state.next_lineage);
@@ -24,14 +24,14 @@ std::vector<int> draw_owners(const World& world, std::size_t n_block) {
   return owner;
 }
 
-/// Where the blocks are, by the first points of their cells, and what they cost.
+/// Positions of blocks, by the first points of their cells, and their costs.
 struct BlockCosts {
   std::vector<Vec3> place;
   std::vector<double> cost;
 };
 
-BlockCosts find_costs(const State& s, std::span<const solve::Block> blocks,
-                      const MeasuredCost& measured) {
+BlockCosts compute_costs(const State& s, std::span<const solve::Block> blocks,
+                         const MeasuredCost& measured) {
   BlockCosts out;
   std::size_t row = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -66,7 +66,7 @@ solve::Ownership share_blocks(const World& world, std::span<const solve::Block> 
   if (random) {
     o.owner = draw_owners(world, blocks.size());
   } else {
-    const BlockCosts costs = find_costs(world.state, blocks, cost);
+    const BlockCosts costs = compute_costs(world.state, blocks, cost);
     o.owner = partition(world.ranks, costs.place, costs.cost);
   }
   return o;

@@ -1,6 +1,6 @@
 #pragma once
-/// Which process works out which cells. All of them know the whole state; the work of a step is
-/// shared by blocks of eight cells. Who owns what never enters a result.
+/// Partition of the cells among processes. Every process has the whole state; the work of a step is
+/// shared by blocks of eight cells. Results do not depend on ownership.
 
 #include <cstdint>
 #include <span>
@@ -11,19 +11,19 @@
 
 namespace acinus::coupling {
 
-/// What cells cost, as measured: by that they are shared.
+/// Measured costs of cells, the weights of the partition.
 struct MeasuredCost {
   std::unordered_map<std::int64_t, double> of_cell;  ///< s per step, by lineage
-  double busy = 0;         ///< s, of this process since its start, when it was looked at last
-  std::int64_t steps = 0;  ///< accepted since then
+  double busy = 0;         ///< s, busy time of this process up to the last check
+  std::int64_t steps = 0;  ///< steps accepted since then
 };
 
-/// The owners of the blocks of a world; whole where there are too few blocks to share: then every
-/// process does all work itself. To be called by all processes.
+/// Partitions the blocks of a world. With too few blocks ownership is whole: every process computes
+/// everything. Collective call.
 solve::Ownership share_blocks(const World& world, std::span<const solve::Block> blocks,
                               const MeasuredCost& cost);
 
-/// f(lineage, lane) for the cells of a block; lanes count [dcm lanes, then cbm cells].
+/// Calls f(lineage, lane) for the cells of a block; lanes count [dcm lanes, then cbm cells].
 template <class F>
 void for_each_cell_of(const State& s, std::size_t block, F f) {
   for (std::size_t lane = block * kLanes; lane < (block + 1) * kLanes; ++lane) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Scratch of the step, sized when the set of cells changes.
+/// Workspace of the step, sized after each change of the set of cells.
 
 #include <cstdint>
 #include <optional>
@@ -19,14 +19,15 @@
 
 namespace acinus::coupling {
 
-/// Point of linearisation of a step, as displacements from the present positions; none: there.
+/// Point of linearisation of a step, as displacements from the present positions; empty: the
+/// present positions.
 struct LinearisationPoint {
   std::vector<double> move;           ///< [n_row][3][lane] um
-  bool moves_all = false;             ///< else only constrained cells are displaced
-  State state;                        ///< of the displaced cells, if all are
+  bool moves_all = false;             ///< false: only constrained cells are displaced
+  State state;                        ///< positions at the point, if all are displaced
   std::vector<double> friction;       ///< nN, Gamma/h times `move`; with K if not all are displaced
   std::vector<double> product;        ///< nN, Gamma/h + K times it
-  std::vector<double> pair_friction;  ///< nN, the part of `friction` that cells exert on each other
+  std::vector<double> pair_friction;  ///< nN, part of `friction` between cells
   bool is_elsewhere() const { return !move.empty(); }
 };
 
@@ -34,10 +35,10 @@ struct Workspace {
   solve::System system;
   /// Boundary of the step if vessels move; written by: refresh_references
   std::optional<contact::Boundary> boundary;
-  std::size_t tree_block = 0;   ///< of the vessels that move; written by: size_workspace
+  std::size_t tree_block = 0;   ///< block of the vessel tree; written by: size_workspace
   std::size_t dcm_lanes = 0;    ///< written by: mark_ghost_cells
   MeasuredCost cost;            ///< written by: balance_shares
-  std::size_t bodies_sent = 0;  ///< whose shares others need; written by: exchange_shares
+  std::size_t bodies_sent = 0;  ///< with shares others need; written by: exchange_shares
   solve::Operator op;
   solve::CgWorkspace cg;
   solve::RigidWorkspace rigid;
@@ -45,12 +46,12 @@ struct Workspace {
   dcm::ContactWorkspace dcm;
   dcm::NucleusWorkspace nuclei;
   cbm::ContactWorkspace cbm;
-  InterfaceWorkspace interface;          ///< written by: refresh_contacts
-  contact::ContactList contacts;         ///< written by: refresh_contacts, completed by: add_loads
-  dcm::LaneData lanes;                   ///< written by: refresh_references
-  std::vector<double> cbm_radius;        ///< written by: refresh_references
-  std::vector<double> cbm_strength;      ///< empty: all 1; written by: refresh_references
-  std::vector<std::int64_t> cbm_mother;  ///< lineage; empty with cbm_strength; by the same
+  InterfaceWorkspace interface;      ///< written by: refresh_contacts
+  contact::ContactList contacts;     ///< written by: refresh_contacts, completed by: add_loads
+  dcm::LaneData lanes;               ///< written by: refresh_references
+  std::vector<double> cbm_radius;    ///< written by: refresh_references
+  std::vector<double> cbm_strength;  ///< [cbm cells], empty: all 1; written by: refresh_references
+  std::vector<std::int64_t> cbm_mother;  ///< lineage; as cbm_strength
   std::vector<dcm::Params> dcm_params;   ///< of the step; written by: add_loads
   std::vector<double> medium_area;       ///< [dcm rows][lane]; written by: refresh_migration
   MediumFriction medium_friction;        ///< written by: refresh_migration
@@ -62,11 +63,11 @@ struct Workspace {
   std::vector<double> move;              ///< displacement of the step; written by: solve_step
   std::vector<double> rest_of_move;      ///< scratch of solve_step
   LinearisationPoint linearisation;      ///< written by: choose_linearisation_point
-  int failed_solves = 0;                 ///< attempts at this step; written by: take_step
+  int failed_solves = 0;                 ///< of this step; written by: take_step, assess_step
   std::vector<std::uint8_t> leader;      ///< written by: refresh_migration
   std::int64_t leader_interval = -1;
   Timings timings;
-  std::uint64_t sized = 0;  ///< number of calls of size_workspace: what depends on the set of cells
+  std::uint64_t sized = 0;  ///< number of calls of size_workspace: changes with the set of cells
 };
 
 }  // namespace acinus::coupling

@@ -1,5 +1,5 @@
 #pragma once
-/// The hybrid world: both models' cells, their boundary, and the constants of a run.
+/// Hybrid world: cells of both models, their boundary, and the constants of a run.
 
 #include <array>
 #include <cstdint>
@@ -24,7 +24,7 @@
 
 namespace acinus::coupling {
 
-/// Phase of a run. Start-up brings small seeds to size and rest; then comes t = 0.
+/// Phase of a run: start-up brings small seeds to size and rest and ends at t = 0.
 enum class Phase : std::int64_t { kGrow, kAdhere, kSettle, kRun };
 
 struct StartUp {
@@ -36,13 +36,13 @@ struct StartUp {
   double pressure_tolerance = 0.01 / 3600;  ///< 1/s, relative
 };
 
-/// Rules by which leaders are chosen; see leaders.hpp.
+/// Rules for the choice of leaders (migration/leaders.hpp).
 enum class Leaders {
-  kForemost,  ///< cells with no other nearer the vein within one diameter in arc and height
-  kFront,     ///< cells with a clear straight way to the vein
-  kBorder,    ///< cells with a clear way into the lesion within 45 degrees of that to the vein
-  kSector,    ///< the nearest cell of every sector of the circle and slice of height
-  kNearest    ///< the nearest cells of all
+  kForemost,  ///< cells without another nearer the vein within one diameter in arc and height
+  kFront,     ///< cells with an unobstructed straight path to the vein
+  kBorder,    ///< cells with an unobstructed path into the lesion within 45 degrees of the vein
+  kSector,    ///< nearest cell of every sector of the circle and slice of height
+  kNearest    ///< cells nearest the vein
 };
 
 struct Motility {
@@ -59,11 +59,11 @@ struct Motility {
   double axis_radius = 0;          ///< um, radius of the vein; leaders stop at its wall
 };
 
-/// Cells in balance may be left out of the step.
+/// Exclusion of cells in balance from the step (sleep/sleep.hpp).
 struct Sleep {
   bool enabled = false;
-  double grid = 600;       ///< s between two looks
-  double traction = 1e-3;  ///< kPa, force out of balance per area below which a cell falls asleep
+  double grid = 600;       ///< s between updates
+  double traction = 1e-3;  ///< kPa, residual force per area below which a cell falls asleep
 };
 
 enum class Integrator { kLinearlyImplicit, kExplicitEuler, kNewton };
@@ -75,7 +75,8 @@ struct Numerics {
   double max_move = 0.3;    ///< displacement cap in mean edge lengths, 0 = none
   solve::CgOptions cg;
   Integrator integrator = Integrator::kLinearlyImplicit;
-  /// Linearly implicit steps linearise where the last step's velocity leads, not where cells are.
+  /// Linearisation at the positions extrapolated with the velocity of the last step, instead of the
+  /// present ones; linearly implicit steps only.
   bool extrapolate = false;
 };
 
@@ -92,14 +93,13 @@ struct Params {
   Sleep sleep;
   ZoomParams zoom;
   Numerics numerics;
-  contact::Boundary boundary;  ///< of these vessels with a tree go where it is
+  contact::Boundary boundary;  ///< vessels with a tree follow it
   VesselTree tree;
   Apparatus apparatus;
 };
 
-/// Events after the last step that are still to come. A step and its events are one unless the
-/// process is asked to stop while cells divide, while the velocity of sleepers is found, while
-/// cells change their model, or while new meshes settle.
+/// Pending events after the last step. A step and its events are one, unless the process is asked
+/// to stop during divisions, a step of sleepers, changes of model, or settling of new meshes.
 enum class EventsDue : std::uint8_t { kNone, kAll, kMeshes, kSleep, kZoom };
 
 struct Clock {
@@ -110,20 +110,20 @@ struct Clock {
   double step = 0;         ///< s, length of the next step
   double last_step = 0;    ///< s, length of the last accepted step; 0 = none
   std::int64_t accepted = 0, rejected = 0, cg_iterations = 0;
-  bool coarse = false;      ///< the solver's coarse space is on: chosen from how hard steps were
+  bool coarse = false;      ///< true: coarse space of the solver is on, by the effort of solves
   std::int64_t solves = 0;  ///< linear systems of accepted and rejected steps
   EventsDue due = EventsDue::kNone;
 };
 
-/// Largest |sum| / sum |.| over all steps.
+/// Largest imbalance |sum| / sum |.| over all steps.
 struct Balance {
   double momentum = 0;  ///< all pair forces, friction included
   double torque = 0;    ///< conservative pair forces
   double friction_torque =
-      0;  ///< pair friction and the pair forces' change in a step, which need not balance
+      0;  ///< pair friction and changes of pair forces in a step, which need not balance
 };
 
-/// Exactly what a checkpoint holds.
+/// State of the world: exactly the contents of a checkpoint.
 struct State {
   dcm::State dcm;
   cbm::State cbm;
@@ -132,19 +132,18 @@ struct State {
   Balance balance;
   std::vector<double> last_move;      ///< [n_row][3][lane] um, displacement of the last step
   std::vector<std::uint8_t> leader;   ///< [dcm lanes, then cbm cells]
-  std::int64_t leader_interval = -1;  ///< grid interval the leaders were chosen in
-  std::vector<std::uint8_t> asleep;   ///< [dcm lanes, then cbm cells] does not move; empty: all do
-  std::int64_t sleep_interval = -1;   ///< grid interval sleep was looked at in
+  std::int64_t leader_interval = -1;  ///< grid interval of the last choice of leaders
+  std::vector<std::uint8_t> asleep;   ///< [dcm lanes, then cbm cells] 1: sleeps; empty: none
+  std::int64_t sleep_interval = -1;   ///< grid interval of the last update of sleep
   std::vector<Cycle> cycle;           ///< [dcm lanes, then cbm cells]; empty: nothing grows
-  std::int64_t life_interval = -1;    ///< grid interval the rules of life were looked at
-  std::int64_t next_lineage = 0;      ///< of the next cell to be born
+  std::int64_t life_interval = -1;    ///< grid interval of the last update of the rules of life
+  std::int64_t next_lineage = 0;      ///< lineage of the next daughter
   std::int64_t divisions = 0, deaths = 0;
-  /// [dcm lanes, then cbm cells] s, clock time since when a cell has its model; empty: all have
-  /// that of the start
+  /// [dcm lanes, then cbm cells] s, clock time of the last change of model; empty: none has changed
   std::vector<double> model_since;
   std::vector<FadingForce> fading;
-  std::vector<double> settle_pressure;  ///< kPa per cell at the last look of the settling phase
-  double settle_time = -1;              ///< s, when that was
+  std::vector<double> settle_pressure;  ///< kPa per cell at the last check of the settling phase
+  double settle_time = -1;              ///< s, time of that check
 };
 
 /// Number of cells of both models.
@@ -153,17 +152,17 @@ int count_cells(const State& state);
 /// Number of cells asleep.
 int count_asleep(const State& state);
 
-/// Vessels where they are at rest: what does not change in a run.
+/// Vessels at rest, constant in a run.
 inline const geometry::Network& vessels_at_rest(const Params& p) {
   return p.tree.exists() ? p.tree.rest : p.boundary.vessels.network;
 }
 
-/// Numbers of all unknowns.
+/// Number of coordinates of all unknowns.
 inline std::size_t count_unknowns(const State& s) {
   return s.dcm.position.size() + s.cbm.position.size() + s.tree.n_row() * kPointStride;
 }
 
-/// True if `last_move` is a step of the rows there are now: not before the first step.
+/// True if `last_move` belongs to the present rows; false before the first step.
 inline bool has_last_move(const State& s) {
   return s.clock.last_step > 0 && s.last_move.size() == count_unknowns(s);
 }
@@ -171,7 +170,7 @@ inline bool has_last_move(const State& s) {
 /// Partition of the work of a step among processes (sharing.hpp).
 enum class Sharing {
   kBalanced,
-  kRandom  ///< any block to anyone, even few: to test that nothing depends on it
+  kRandom  ///< random owners even of few blocks, to test that no result depends on ownership
 };
 
 struct World {
@@ -181,33 +180,32 @@ struct World {
   Sharing sharing = Sharing::kBalanced;
 };
 
-/// Time since t = 0, s. During start-up, whose end is not known, the time left to its latest
-/// possible end as a negative number.
+/// Time since t = 0, s; during start-up minus the longest time left to its end.
 double time_since_start(const World& world);
 
-/// Adhesion, cell-cell friction and motility of the present phase.
+/// Factors on adhesion, cell-cell friction and motility in the present phase.
 struct Controls {
   double adhesion = 1, friction = 1;
   bool motility = true;
 };
 Controls controls_at(const Clock& clock, const StartUp& start_up);
 
-/// First CBM row.
+/// First row of the spheres.
 inline std::size_t cbm_first_row(const State& s) { return s.dcm.n_row(); }
-/// First row of the vessels; kAtRest if they have none.
+/// First row of the vessel tree; kAtRest without one.
 inline std::size_t tree_first_row(const State& s) {
   return s.tree.node.empty() ? contact::kAtRest : s.dcm.n_row() + s.cbm.n_row();
 }
 
-/// [dcm lanes, then cbm cells, then the tree] 1 where a body is; all lanes of CBM rows and of the
-/// tree's block included for the solver.
+/// [dcm lanes, then cbm cells, then the tree] 1 for occupied lanes. All lanes of sphere rows and of
+/// the block of the tree count, as the solver requires.
 std::vector<std::uint8_t> active_lanes(const State& state);
 
 /// Positions of all unknowns in one array, [n_row][3][lane].
 std::vector<double> gather_positions(const State& state);
 void gather_positions(const State& state, std::vector<double>& out);
 
-/// Coordinates of a point of a cell among all unknowns, kLanes apart.
+/// Coordinates of a point, kLanes apart.
 double* position_of(State& state, Address point);
 const double* position_of(const State& state, Address point);
 
@@ -215,13 +213,13 @@ const double* position_of(const State& state, Address point);
 /// @param by  [n_row][3][lane] um
 void move_points(State& state, std::span<const double> by);
 
-/// Hash of the whole state in storage order: equal bits give equal hashes.
+/// Hash of the whole state in storage order; equal bits give equal hashes.
 std::uint64_t hash_state(const State& state);
 
-/// "DCM cell 12" of a lane index, "CBM cell 40" of a sphere index.
+/// Name for messages: "DCM cell 12" of a lane, "CBM cell 40" of a sphere.
 std::string name_dcm(const State& state, std::size_t lane);
 std::string name_cbm(const State& state, std::size_t cell);
-/// The same of a lane of active_lanes.
+/// Name of a lane of active_lanes, for messages.
 std::string name_body(const State& state, std::size_t lane);
 
 }  // namespace acinus::coupling

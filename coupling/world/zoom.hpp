@@ -1,5 +1,5 @@
 #pragma once
-/// Which cells are deformable while a scene runs.
+/// Parameters of a zoom: the choice of deformable cells in a run.
 
 #include <cstdint>
 #include <vector>
@@ -10,19 +10,19 @@
 
 namespace acinus::coupling {
 
-/// A zoom that moves. Cells change their model when they enter or leave its regions.
+/// Parameters of a moving zoom. Cells change their model as they enter or leave its regions.
 struct ZoomParams {
-  double grid = 0;          ///< s between two looks; 0: cells keep the model they start with
-  double margin = 24;       ///< um, how far a deformable cell may leave the regions
-  double stay = 1800;       ///< s, for which a cell keeps a model it took
-  double fade = 3600;       ///< s, in which forces fade that the new model does not have
-  int at_once = 16;         ///< cells that change at one look, at most
-  int most_deformable = 0;  ///< cells; 0: no limit
+  double grid = 0;          ///< s between updates; 0: cells keep their first model
+  double margin = 24;       ///< um, distance outside the regions that demotes a cell
+  double stay = 1800;       ///< s, least time between changes of a cell
+  double fade = 3600;       ///< s, duration of fading forces
+  int at_once = 16;         ///< largest number of changes in an update
+  int most_deformable = 0;  ///< largest number of deformable cells; 0: no limit
   std::vector<Region> region;
   Vec3 axis_point = Vec3::Zero();  ///< the vein axis is vertical through it
-  /// [cell type] mesh of its deformable cells
+  /// [cell type] mesh of deformable cells
   std::vector<const geometry::Topology*> mesh;
-  std::uint64_t seed = 1;  ///< of the orientation of new meshes, and of the moduli of new spheres
+  std::uint64_t seed = 1;  ///< seed of orientations of new meshes and moduli of new spheres
 
   bool moves() const { return grid > 0; }
 };

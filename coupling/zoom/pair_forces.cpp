@@ -11,7 +11,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// Lineages in the order in which measures number cells.
+/// Lineages in the order of measure_cells.
 std::vector<std::int64_t> list_lineages(const World& world, const Workspace& work) {
   const State& s = world.state;
   std::vector<std::int64_t> lineage;
@@ -20,15 +20,15 @@ std::vector<std::int64_t> list_lineages(const World& world, const Workspace& wor
   return lineage;
 }
 
-/// Most by which a fading force may compress a cell, as a share of its volume: a difference of two
-/// models is less, and what a crowded place makes of a new mesh is for its contacts to settle.
+/// Largest compression of a cell by a fading force, as a share of its volume. Differences between
+/// the models are smaller; beyond them the contacts of a new mesh have to settle.
 constexpr double kMostCompression = 0.05;
 
-/// How far a pair may move relative to each other until nothing is left of its fading force, as a
-/// share of the smaller radius: more than tissue in equilibrium does within an hour.
+/// Relative displacement of a pair that ends its fading force, as a share of the smaller radius:
+/// more than tissue in equilibrium moves in an hour.
 constexpr double kPairReach = 0.25;
 
-/// The force, nN, that compresses the cell so far if it acts on its cross-section.
+/// Force that compresses a cell by that share if it acts on its cross-section, nN.
 double largest_fading(const World& world, const Cell& c, double radius) {
   const State& s = world.state;
   const auto type = static_cast<std::size_t>(type_of(s, c));
@@ -40,8 +40,8 @@ PairForce force_of(const PairForces& forces, const PairForces::key_type& pair) {
   return at == forces.end() ? PairForce{} : at->second;
 }
 
-/// Makes the forces known to all. Whoever owns one of the two cells has all their contacts, so
-/// those of two processes are the same.
+/// Exchanges pair forces among all processes. The owner of either cell has all its contacts, so
+/// both processes have the same force.
 void gather(const solve::Ownership& ownership, PairForces& forces) {
   if (ownership.is_whole()) return;
   struct PairEntry {
@@ -59,8 +59,8 @@ void gather(const solve::Ownership& ownership, PairForces& forces) {
 
 }  // namespace
 
-PairForces find_pair_forces(const World& world, const Workspace& work,
-                            const std::set<std::int64_t>& cells) {
+PairForces compute_pair_forces(const World& world, const Workspace& work,
+                               const std::set<std::int64_t>& cells) {
   const std::vector<std::int64_t> lineage = list_lineages(world, work);
   PairForces forces;
   visit_contacts(world, work, [&](const ContactForce& f) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What cells exert on their neighbours before and after a change of model, and what fades between.
+/// Pair forces before and after a change of model, and the fading differences between them.
 
 #include <cstdint>
 #include <map>
@@ -13,22 +13,22 @@
 namespace acinus::coupling {
 
 struct PairForce {
-  Vec3 force = Vec3::Zero();  ///< nN, on the first of the two
-  double virial = 0;          ///< nN um, sum of force . arm of the first
+  Vec3 force = Vec3::Zero();  ///< nN, on the first cell
+  double virial = 0;          ///< nN um, sum of force . arm of the first cell
 };
 
-/// By the lineages of the two in rising order; of a cell and boundary: (cell, kNoPartner).
+/// Pair forces by the two lineages in ascending order; with boundary: (cell, kNoPartner).
 using PairForces = std::map<std::pair<std::int64_t, std::int64_t>, PairForce>;
 
-/// Contact forces of these cells with each other and with all others, without what fades already.
+/// Contact forces of cells with each other and with all others, without fading forces.
 /// @param cells  lineages      @pre observe
-PairForces find_pair_forces(const World& world, const Workspace& work,
-                            const std::set<std::int64_t>& cells);
+PairForces compute_pair_forces(const World& world, const Workspace& work,
+                               const std::set<std::int64_t>& cells);
 
-/// What has to act beside the new contacts for every pair to exert what it did: of two cells along
-/// the line between their centres, so without torque, and with what it adds to the pressure of
-/// both. It fades within params.zoom.fade.
-/// @param after  of the state as it is now
+/// Fading forces that keep every pair force continuous over a change of model. Between two cells
+/// they act along the line of centres, without torque. Their virial restores the pressure of both.
+/// They fade within params.zoom.fade.
+/// @param after  pair forces of the present state
 void add_fading(const World& world, const PairForces& before, const PairForces& after,
                 std::vector<FadingForce>& fading);
 

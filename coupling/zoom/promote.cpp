@@ -8,7 +8,7 @@
 #include "core/sphere.hpp"
 #include "coupling/world/cell.hpp"
 #include "coupling/world/orientation.hpp"
-#include "coupling/zoom/cell_room.hpp"
+#include "coupling/zoom/cell_volume.hpp"
 #include "dcm/shape/give_shape.hpp"
 #include "dcm/shape/split.hpp"
 #include "geometry/measures.hpp"
@@ -16,11 +16,11 @@
 namespace acinus::coupling {
 namespace {
 
-/// A room that leaves less than this share of the volume is no place for a mesh.
+/// Least share of the wanted volume that a mesh has to enclose.
 constexpr double kLeastVolume = 0.7;
-/// A mesh with a worse triangle is not accepted.
+/// Least triangle quality of an accepted mesh.
 constexpr double kLeastShapeQuality = 0.1;
-constexpr int kFillings = 3;
+constexpr int kFillings = 3;  ///< corrections of the enclosed volume
 
 std::vector<Vec3> directions(const geometry::Topology& t, const Mat3& turn) {
   std::vector<Vec3> direction;
@@ -28,7 +28,7 @@ std::vector<Vec3> directions(const geometry::Topology& t, const Mat3& turn) {
   return direction;
 }
 
-/// What a cell keeps whatever its model.
+/// Copies properties that do not depend on the model.
 void carry_over(const State& from, const Cell& c, State& to, std::size_t index) {
   to.clock = from.clock;
   to.leader.assign(index + 1, 0);
@@ -47,16 +47,16 @@ NewShell shape_sphere(const World& world, std::size_t sphere, double pressure,
   const double bulk = world.params.dcm[static_cast<std::size_t>(type)].bulk_modulus;
   const double rest = s.cbm.volume[sphere].at(s.clock.time);
   const double wanted = rest * std::exp(-std::max(pressure, 0.0) / bulk);
-  const dcm::Room room = find_room(world, sphere, radius);
+  const dcm::Room available = make_available_volume(world, sphere, radius);
   const std::vector<Vec3> direction =
       directions(t, random_orientation(world.params.zoom.seed, s.cbm.lineage[sphere]));
   NewShell shell;
   double found = wanted;
-  // Chords cut off a part of the room. What is free moves out for it, faces at neighbours stay
-  // where they are.
+  // The chords of the mesh cut off volume: the free surface moves outward until it is regained,
+  // faces at neighbours keep their places.
   for (double volume = wanted, k = 0; k < kFillings; ++k) {
-    const double size = room.find_radius(volume, kRoomReach * radius[sphere]);
-    shell.node = room.fill(t, direction, size);
+    const double size = available.find_radius(volume, kRayReach * radius[sphere]);
+    shell.node = available.fill(t, direction, size);
     found = geometry::compute_volume(shell.node, t.triangle);
     volume *= wanted / found;
   }

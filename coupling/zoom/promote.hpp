@@ -1,6 +1,6 @@
 #pragma once
-/// A sphere becomes a deformable cell, and the other way round: the cell alone, without what the
-/// change does to its neighbours (update.hpp).
+/// Promotion of a sphere to a deformable cell, and demotion. Only the cell itself; the effect on
+/// its neighbours is in update.hpp.
 
 #include <cstddef>
 #include <span>
@@ -11,25 +11,25 @@
 
 namespace acinus::coupling {
 
-/// The mesh that a sphere becomes.
+/// Mesh of a promoted sphere.
 struct NewShell {
   bool ok = true;
-  std::string why;         ///< not ok: what is in the way
+  std::string why;         ///< cause of a failure
   std::vector<Vec3> node;  ///< um
 };
 
-/// A mesh in the room of a sphere, as large as its cytosol is under the pressure of its contacts,
-/// V0 exp(-p / K_V).
-/// @param pressure  kPa, contact pressure; tension counts as none
+/// Shapes a mesh in the available volume of a sphere. Its volume is that of the cytosol under the
+/// contact pressure, V0 exp(-p / K_V).
+/// @param pressure  kPa, contact pressure; tension counts as 0
 /// @param radius    [cbm cells] um
 NewShell shape_sphere(const World& world, std::size_t sphere, double pressure,
                       std::span<const double> radius);
 
-/// The cell as a state of its own, with its reference volume, cycle and last move. Its cortex takes
-/// the shape for rest and forgets it within dcm::kForgetShape.
+/// State of the promoted cell alone, with its reference volume, cycle and last move. The cortex
+/// takes the shape as its rest shape and relaxes from it within dcm::kForgetShape.
 State make_shell(const World& world, std::size_t sphere, const NewShell& shell);
 
-/// A deformable cell as a sphere at the centre of its volume.
+/// State of the demoted cell alone: a sphere at the centroid of its volume.
 State make_sphere(const World& world, std::size_t lane);
 
 }  // namespace acinus::coupling

@@ -10,10 +10,10 @@ namespace acinus::coupling {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
-/// Cells from which on threads are worth it.
+/// Number of cells from which threads pay.
 constexpr std::size_t kMany = 200;
 
-/// Centres of the cells that a region follows.
+/// Centres of the cells followed by a region.
 std::vector<Vec3> list_followed(const Region& r, std::span<const ZoomCell> cells) {
   std::vector<Vec3> followed;
   if (r.kind != RegionKind::kCells) return followed;

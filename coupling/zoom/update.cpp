@@ -25,10 +25,10 @@
 namespace acinus::coupling {
 namespace {
 
-/// s, longest step after a change: surfaces that meet a new shape adapt at once.
+/// Longest step after a change of model, s: neighbours adapt to the new shape at once.
 constexpr double kStepAfterChange = 5;
 
-/// A cell that is to change, and how far outside the zoom it is.
+/// Cell to change its model, with its distance outside the zoom.
 struct Candidate {
   Cell cell;
   std::int64_t lineage = 0;
@@ -44,7 +44,7 @@ bool is_due(const State& s, const ZoomParams& zoom) {
   return crosses_grid(time_of(s) - s.clock.last_step, time_of(s), zoom.grid);
 }
 
-/// Whether a cell is in a state that one model can hand to the other.
+/// True if the state of a cell can be converted to the other model.
 bool may_change(const World& world, const Cell& c) {
   const State& s = world.state;
   const double now = s.clock.time;
@@ -55,7 +55,7 @@ bool may_change(const World& world, const Cell& c) {
   return !cycle || cycle->parent < 0 || now >= cycle->birth + cycle_of(world.params, s, c).mitosis;
 }
 
-/// Contact pressure of every cell now, [dcm lanes, then cbm cells] kPa.
+/// Contact pressure of every cell, [dcm lanes, then cbm cells] kPa.
 std::vector<double> observe_pressures(const World& world, Workspace& work) {
   observe(world, work);
   const State& s = world.state;
@@ -68,8 +68,8 @@ std::vector<double> observe_pressures(const World& world, Workspace& work) {
   return pressure;
 }
 
-/// The first n by an order, then in the order of their lineages: what happens to a cell must not
-/// depend on where it is kept.
+/// Keeps the first n candidates of an order, sorted by lineage: results must not depend on storage
+/// order.
 template <class Before>
 void keep_first(std::vector<Candidate>& list, std::size_t n, Before before) {
   std::ranges::sort(list, [&](const Candidate& a, const Candidate& b) {
@@ -79,7 +79,7 @@ void keep_first(std::vector<Candidate>& list, std::size_t n, Before before) {
   std::ranges::sort(list, {}, &Candidate::lineage);
 }
 
-/// In the order of for_each_cell.
+/// Cells as seen by regions, in the order of for_each_cell.
 std::vector<ZoomCell> list_zoom_cells(const State& s, const std::vector<double>& pressure) {
   std::vector<ZoomCell> cells;
   for_each_cell(s, [&](const Cell& c) {
@@ -111,17 +111,17 @@ Switches find_candidates(const World& world, const std::vector<double>& pressure
   });
   const auto at_once = static_cast<std::size_t>(zoom.at_once);
   keep_first(found.demote, at_once, std::greater{});
-  std::size_t room = at_once - found.demote.size();
+  std::size_t allowed = at_once - found.demote.size();
   if (zoom.most_deformable > 0) {
     const auto most = static_cast<std::size_t>(zoom.most_deformable);
     const std::size_t left = n_deformable - found.demote.size();
-    room = std::min(room, most > left ? most - left : 0);
+    allowed = std::min(allowed, most > left ? most - left : 0);
   }
-  keep_first(found.promote, room, std::less{});
+  keep_first(found.promote, allowed, std::less{});
   return found;
 }
 
-/// Puts the new cells in the place of the old ones, and notes when.
+/// Replaces changed cells by their new states and records the time.
 void exchange(const std::vector<std::uint8_t>& gone, const std::vector<State>& fresh, State& s) {
   const bool lives = !s.cycle.empty();
   std::set<std::int64_t> changed;
@@ -147,8 +147,7 @@ std::vector<NewShell> shape_spheres(const World& world, const std::vector<Candid
   return shells;
 }
 
-/// Deformable cells that have to find their shape anew: those that changed, and those that touched
-/// one that did.
+/// Deformable cells that have to settle: those that changed and their neighbours.
 std::vector<std::int64_t> meshes_to_settle(const State& s, const std::set<std::int64_t>& changed,
                                            const PairForces& before) {
   std::set<std::int64_t> touched = changed;
@@ -160,7 +159,7 @@ std::vector<std::int64_t> meshes_to_settle(const State& s, const std::set<std::i
   return meshes;
 }
 
-/// Changes the models of the candidates; what could not be shaped stays.
+/// Changes the models of the candidates; cells without an acceptable shape keep theirs.
 void change_models(World& world, const Switches& all, const std::vector<double>& pressure,
                    ZoomReport& report) {
   State& s = world.state;
@@ -211,7 +210,7 @@ ZoomReport update_zoom(World& world, Workspace& work) {
   std::set<std::int64_t> changing;
   for (const auto* list : {&all.promote, &all.demote})
     for (const Candidate& c : *list) changing.insert(c.lineage);
-  const PairForces before = find_pair_forces(world, work, changing);
+  const PairForces before = compute_pair_forces(world, work, changing);
   State old = s;
   change_models(world, all, pressure, report);
   const std::vector<std::int64_t> meshes = meshes_to_settle(s, changing, before);
@@ -229,7 +228,7 @@ ZoomReport update_zoom(World& world, Workspace& work) {
   s.clock.step = std::min(s.clock.step, kStepAfterChange);
   observe(world, work);
   keep_fading(old, s);
-  add_fading(world, before, find_pair_forces(world, work, changing), s.fading);
+  add_fading(world, before, compute_pair_forces(world, work, changing), s.fading);
   return report;
 }
 

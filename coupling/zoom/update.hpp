@@ -1,6 +1,6 @@
 #pragma once
-/// The zoom follows the tissue: cells that enter its regions become deformable, cells that leave
-/// them become spheres.
+/// Update of a zoom: cells that enter its regions become deformable, cells that leave them become
+/// spheres.
 
 #include <cstdint>
 #include <string>
@@ -20,21 +20,19 @@ struct ModelChange {
 
 struct ZoomReport {
   std::vector<ModelChange> changes;
-  /// The process was asked to stop meanwhile: nothing has changed. To be called again before the
-  /// next step.
+  /// True if the process was asked to stop: nothing has changed. Call again before the next step.
   bool interrupted = false;
 };
 
-/// Looks at the regions if the last step crossed the time grid of the zoom. A sphere within a
-/// region becomes deformable, a deformable cell farther than the margin from all regions a sphere;
-/// at most ZoomParams::at_once of both at a look, those deepest inside and farthest outside first.
-/// Cells that dissolve, spheres that come apart from their sister, daughters in mitosis and cells
-/// that changed less than ZoomParams::stay ago stay what they are. New meshes settle among their
-/// neighbours; forces that a pair exerted and does not any more fade (pair_forces.hpp). The
-/// workspace is sized anew when a cell changed.
+/// Updates the zoom if the last step crossed its time grid. A sphere within a region becomes
+/// deformable; a deformable cell farther than the margin from all regions becomes a sphere. At most
+/// ZoomParams::at_once cells change in an update, deepest inside and farthest outside first. Cells
+/// in lysis, young sister spheres, daughters in mitosis and cells that changed less than
+/// ZoomParams::stay ago keep their model. New meshes settle among their neighbours; lost pair
+/// forces fade (pair_forces.hpp). Sizes the workspace anew if a cell changed.
 ZoomReport update_zoom(World& world, Workspace& work);
 
-/// Time until the zoom is looked at again, s; infinite if it does not move.
+/// Time to the next update of the zoom, s; infinite if it does not move.
 double time_to_zoom_event(const World& world);
 
 }  // namespace acinus::coupling

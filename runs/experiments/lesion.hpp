@@ -31,7 +31,7 @@ struct LesionCell {
   double height = 0;   ///< um, of the centre above the foot of the lobule
   double center = 0;   ///< um, horizontal distance of the centre from the vein axis
   double surface = 0;  ///< um, that of the nearest point of its surface
-  int layer = 1;       ///< coupling::find_layers
+  int layer = 1;       ///< coupling::compute_layers
 };
 
 /// Sizes that do not change through a run, um.

@@ -37,7 +37,7 @@ std::vector<LesionCell> lesion_cells(const ObservedFrame& frame, const LobuleDom
   const std::vector<CellMeasure>& cells = frame.snapshot.cells;
   std::vector<coupling::LayerCell> all;
   for (const CellMeasure& c : cells) all.push_back({c.center, lobule.frame.cell_radius});
-  const std::vector<int> layer = coupling::find_layers(all, lobule.axis);
+  const std::vector<int> layer = coupling::compute_layers(all, lobule.axis);
   std::vector<LesionCell> out;
   for (std::size_t k = 0; k < cells.size(); ++k) {
     const double r = distance_from(lobule.axis, cells[k].center);
@@ -148,7 +148,7 @@ void sample_speeds(const ObservedFrame& frame, ObservedRun& o) {
 
 void sample_sinusoids(const ObservedFrame& frame, ObservedRun& o) {
   const LobuleDomain& lobule = *o.lobule;
-  const coupling::Reactions r = coupling::find_reactions(frame.world, frame.work);
+  const coupling::Reactions r = coupling::compute_reactions(frame.world, frame.work);
   double area = 0;
   for (std::size_t s = 0; s < lobule.sinusoid.size(); ++s)
     if (lobule.sinusoid[s] != 0) area += r.of(contact::Partner::kVessel)[s].area;

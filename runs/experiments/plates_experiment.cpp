@@ -48,7 +48,7 @@ void sample_plates(const ObservedFrame& f, ObservedRun& observed) {
          shell = kNotMeasured;
   if (there) {
     const coupling::CellMeasure& cell = cells.front();
-    const coupling::Reactions reactions = coupling::find_reactions(f.world, f.work);
+    const coupling::Reactions reactions = coupling::compute_reactions(f.world, f.work);
     coupling::Reaction both;
     for (const coupling::Reaction& r : reactions.of(contact::Partner::kPlane)) both += r;
     gap = gap_between(plane[0], plane[1], f.snapshot.time);

@@ -67,9 +67,10 @@ void sample_pull_off(const ObservedFrame& f, ObservedRun& observed) {
   if (pulls.size() == 2 && cells.size() == 2) {
     force = 0.5 * (force_on(pulls[0], f) + force_on(pulls[1], f));
     distance = (cells[1].center - cells[0].center).norm();
-    const coupling::Adhesion adhesion = coupling::find_adhesion(f.world, f.work);
+    const coupling::Adhesion adhesion = coupling::measure_adhesion(f.world, f.work);
     area = adhesion.area;
-    t = coupling::find_contact_tensions(coupling::measure_nodes(f.world, f.work).tension, adhesion);
+    t = coupling::compute_contact_tensions(coupling::measure_nodes(f.world, f.work).tension,
+                                           adhesion);
   }
   m["pull_force_nN"].push_back(force);
   m["pull_force_relative"].push_back(force / vesicle_pull_off(pair_of(f.scene)));

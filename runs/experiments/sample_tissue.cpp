@@ -21,7 +21,7 @@ void add_reaction(const std::string& name, const Reaction& r, Measures& m) {
 /// Reactions of walls and meshes by name, summed over those with the same name, and of vessels.
 void sample_reactions(const ObservedFrame& frame, Measures& m) {
   const contact::Boundary& boundary = frame.world.params.boundary;
-  const coupling::Reactions r = coupling::find_reactions(frame.world, frame.work);
+  const coupling::Reactions r = coupling::compute_reactions(frame.world, frame.work);
   std::map<std::string, Reaction> wall;
   contact::for_each_wall(boundary, [&](contact::Partner kind, std::size_t k, const auto& w) {
     wall[name_in_columns(w.name)] += r.of(kind)[k];

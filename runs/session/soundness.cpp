@@ -61,7 +61,7 @@ Excess find_lost_sphere(const coupling::AuditResult& audit, const coupling::Worl
 /// Nucleus that protrudes farthest from its cortex. Contact searches max_depth deep for it, so that
 /// half of that is still safe.
 Excess find_leak(const coupling::World& world) {
-  const coupling::NucleusLeak leak = coupling::find_nucleus_leak(world.state);
+  const coupling::NucleusLeak leak = coupling::measure_nucleus_leak(world.state);
   const double limit = 0.5 * world.params.dcm_contact.max_depth;
   if (!(leak.depth_um > limit)) return {};
   return {leak.depth_um - limit,

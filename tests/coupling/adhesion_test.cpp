@@ -17,7 +17,7 @@ Adhesion adhesion_at(double apart, int n_node, bool& any) {
   SizedWorkspace work(world);
   observe(world, work);
   any = any_adhesion(world, work);
-  return find_adhesion(world, work);
+  return measure_adhesion(world, work);
 }
 
 // Two spheres of radius R with their surfaces a gap g apart are closer than h within

@@ -46,14 +46,14 @@ BeamEnds draw_ends(std::mt19937& random, double size) {
 }
 
 Vec12 force_on(const BeamEnds& e) {
-  const BeamLoad load = find_load(kBeam, e);
+  const BeamLoad load = compute_load(kBeam, e);
   Vec12 f;
   f << -load.force, load.force, load.moment[0], load.moment[1];
   return f;
 }
 
 Mat12 matrix_of(const BeamEnds& e) {
-  const BeamStiffness s = find_stiffness(kBeam, e);
+  const BeamStiffness s = compute_stiffness(kBeam, e);
   Mat12 k = Mat12::Zero();
   const auto add_spring = [&k](Eigen::Index at, const Mat3& m) {
     k.block<3, 3>(at, at) += m;
@@ -82,7 +82,7 @@ TEST(Beam, ForcesAreMinusTheGradientOfTheEnergy) {
     for (Eigen::Index k = 0; k < 12; ++k) {
       const Vec12 by = kStep * Vec12::Unit(k);
       const double slope =
-          (find_load(kBeam, moved(e, by)).energy - find_load(kBeam, moved(e, -by)).energy) /
+          (compute_load(kBeam, moved(e, by)).energy - compute_load(kBeam, moved(e, -by)).energy) /
           (2 * kStep);
       worst = std::max(worst, std::abs(force[k] + slope) / force.norm());
     }
@@ -95,7 +95,7 @@ TEST(Beam, NeitherMovesNorTurnsItself) {
   std::mt19937 random(2);
   for (int trial = 0; trial < 50; ++trial) {
     const BeamEnds e = draw_ends(random, 1);
-    const BeamLoad load = find_load(kBeam, e);
+    const BeamLoad load = compute_load(kBeam, e);
     const Vec3 torque =
         (e.place[1] - e.place[0]).cross(load.force) + load.moment[0] + load.moment[1];
     EXPECT_LT(torque.norm(), 1e-12 * (load.moment[0].norm() + load.moment[1].norm()));
@@ -112,7 +112,7 @@ TEST(Beam, EnergyDoesNotChangeWhenAllIsTurned) {
       turned.place[k] = turn * e.place[k] + Vec3(5, -7, 2);
       turned.frame[k] = turn * e.frame[k];
     }
-    EXPECT_NEAR(find_load(kBeam, turned).energy, find_load(kBeam, e).energy, 1e-10);
+    EXPECT_NEAR(compute_load(kBeam, turned).energy, compute_load(kBeam, e).energy, 1e-10);
   }
 }
 
@@ -130,7 +130,7 @@ TEST(Beam, StiffnessIsSemiDefiniteAndBlindToRigidMotion) {
       turn << Vec3::Unit(axis).cross(e.place[0]), Vec3::Unit(axis).cross(e.place[1]),
           Vec3::Unit(axis), Vec3::Unit(axis);
       // A beam under tension resists a turn of its ends' places as a string does.
-      const BeamStiffness s = find_stiffness(kBeam, e);
+      const BeamStiffness s = compute_stiffness(kBeam, e);
       const Vec3 across = turn.segment<3>(3) - turn.segment<3>(0);
       const Vec12 rest = k * turn;
       EXPECT_LT(rest.norm(), 1e-12 * k.norm() * turn.norm() + 1.5 * s.lateral * across.norm());
@@ -147,7 +147,7 @@ TEST(Beam, StiffnessAtRestIsTheSecondDerivative) {
   constexpr double kStep = 1e-5;
   for (Eigen::Index c = 0; c < 12; ++c) {
     const auto force = [&](double step) {
-      const BeamLoad load = find_load(beam, moved(e, step * Vec12::Unit(c)));
+      const BeamLoad load = compute_load(beam, moved(e, step * Vec12::Unit(c)));
       Vec12 f;
       f << -load.force, load.force, load.moment[0], load.moment[1];
       return f;

@@ -36,7 +36,7 @@ TEST(Reactions, OfWallsOnASphereAreThoseOfItsLaw) {
                                   mirror_at(Vec3(11.5, 0, 0), -Vec3::UnitX()),
                                   mirror_at(Vec3(0, 0, -20), Vec3::UnitZ())};
   const Observed o(world);
-  const Reactions r = find_reactions(o.world, o.work);
+  const Reactions r = compute_reactions(o.world, o.work);
   const double young = cbm::young_from_bulk(2.5, 0.47);
   const contact::SphereBody sphere{12, young, o.world.params.cbm[0].poisson};
   const double deep = contact::mirror_wall_force(sphere, 11).force,
@@ -56,7 +56,7 @@ TEST(Reactions, OfAWallOnADeformableCellIsTheSumOverItsPoints) {
   World world = make_test_world({{Vec3::Zero(), true}});
   world.params.boundary.planes = {mirror_at(Vec3(0, 0, -11.6), Vec3::UnitZ())};
   const Observed o(world);
-  const Reaction wall = find_reactions(o.world, o.work).of(Partner::kPlane)[0];
+  const Reaction wall = compute_reactions(o.world, o.work).of(Partner::kPlane)[0];
   const contact::SurfaceBody& body = o.work.dcm.body[0];
   const dcm::ContactParams& c = o.world.params.dcm_contact;
   double expected = 0;
@@ -95,7 +95,7 @@ TEST(Reactions, OfOppositeWallsAgreeWhenTheCellsAreAtRest) {
   for (std::size_t k = 0; k < after.size(); ++k)
     speed = std::max(speed, std::abs(after[k] - before[k]) / 60);
   observe(world, work);
-  const Reactions r = find_reactions(world, work);
+  const Reactions r = compute_reactions(world, work);
   // What is left between opposite walls moves the cells against the medium: no more than the
   // surfaces of four cells of each model with Table 1's friction, at the largest speed there is.
   const double medium = 4 * 4 * kPi * 144 * (0.1 + 0.5);
@@ -119,7 +119,7 @@ TEST(Reactions, OfVesselsAreThoseOfEverySegment) {
   contact::set_network(world.params.boundary.vessels, n);
   world.params.boundary.vessels.material = {0, 0.6, 0.4, false};
   const Observed o(world);
-  const Reactions r = find_reactions(o.world, o.work);
+  const Reactions r = compute_reactions(o.world, o.work);
   ASSERT_EQ(r.of(Partner::kVessel).size(), 2U);
   EXPECT_LT(r.of(Partner::kVessel)[0].net.y(), 0) << "the sphere presses down";
   EXPECT_GT(r.of(Partner::kVessel)[1].net.y(), 0) << "the deformable cell presses up";
@@ -155,7 +155,7 @@ TEST(Reactions, DoNotDependOnTheNumberOfThreads) {
   for (const int threads : {1, 3}) {
     set_threads(threads);
     const Observed o(world);
-    of[threads / 2] = find_reactions(o.world, o.work).of(Partner::kPlane);
+    of[threads / 2] = compute_reactions(o.world, o.work).of(Partner::kPlane);
   }
   set_threads(before);
   for (std::size_t k = 0; k < 6; ++k) {

@@ -120,12 +120,12 @@ TEST(Interface, CompliantStiffnessIsTheSeriesOfPenaltyAndWinkler) {
   // k_w = 4 E* / (3 pi R sqrt(indentation / R)); E* = 0.45/(1 - 0.47^2), R = 12, indentation = 0.48
   const double young = 0.45 / (1 - 0.47 * 0.47), winkler = 4 * young / (3 * kPi * 12 * 0.2);
   const SphereSurface plain{12, 0.45, 0.47, {0.45, 0}, nullptr};
-  EXPECT_NEAR(find_compliance(5, plain, 0.48).stiffness, 5 * winkler / (5 + winkler), 1e-15);
-  EXPECT_EQ(find_compliance(5, plain, 0.48).slope, 0);
-  EXPECT_EQ(find_compliance(5, plain, 0).stiffness,
-            find_compliance(5, plain, 12 * kLeastDepth).stiffness);
-  EXPECT_EQ(find_compliance(5, plain, 12 * kMostDepth).stiffness,
-            find_compliance(5, plain, 12 * 0.3).stiffness);
+  EXPECT_NEAR(compute_compliance(5, plain, 0.48).stiffness, 5 * winkler / (5 + winkler), 1e-15);
+  EXPECT_EQ(compute_compliance(5, plain, 0.48).slope, 0);
+  EXPECT_EQ(compute_compliance(5, plain, 0).stiffness,
+            compute_compliance(5, plain, 12 * kLeastDepth).stiffness);
+  EXPECT_EQ(compute_compliance(5, plain, 12 * kMostDepth).stiffness,
+            compute_compliance(5, plain, 12 * 0.3).stiffness);
 }
 
 TEST(Interface, ACalibratedSphereHardensUnderAnIndentationDeeperThanItsOverlap) {
@@ -137,22 +137,22 @@ TEST(Interface, ACalibratedSphereHardensUnderAnIndentationDeeperThanItsOverlap) 
   // As deep as the mean or less: the modulus of the mean overlap, which does not depend on the
   // indentation.
   for (const double d : {0.05, 0.12}) {
-    EXPECT_EQ(find_compliance(5, sphere, 12 * d).stiffness,
-              find_compliance(5, frozen, 12 * d).stiffness);
-    EXPECT_EQ(find_compliance(5, sphere, 12 * 0.999 * d).slope, 0);
+    EXPECT_EQ(compute_compliance(5, sphere, 12 * d).stiffness,
+              compute_compliance(5, frozen, 12 * d).stiffness);
+    EXPECT_EQ(compute_compliance(5, sphere, 12 * 0.999 * d).slope, 0);
   }
   // Deeper: stiffer, without a jump, and by what the slope says where the contact does not widen.
-  double before = find_compliance(5, sphere, 12 * mean).stiffness;
+  double before = compute_compliance(5, sphere, 12 * mean).stiffness;
   for (double d = mean; d < 0.35; d += 1e-3) {
-    const double now = find_compliance(5, sphere, 12 * d).stiffness;
+    const double now = compute_compliance(5, sphere, 12 * d).stiffness;
     EXPECT_LT(std::abs(now - before), 0.04 * before);
     before = now;
     if (d < kMostDepth + 1e-4) continue;
-    EXPECT_GT(now, 1.5 * find_compliance(5, frozen, 12 * d).stiffness);
-    const double step = 1e-4, above = find_compliance(5, sphere, 12 * d + step).stiffness,
-                 below = find_compliance(5, sphere, 12 * d - step).stiffness;
+    EXPECT_GT(now, 1.5 * compute_compliance(5, frozen, 12 * d).stiffness);
+    const double step = 1e-4, above = compute_compliance(5, sphere, 12 * d + step).stiffness,
+                 below = compute_compliance(5, sphere, 12 * d - step).stiffness;
     if (std::abs(d - 0.2) > 1e-3 && std::abs(d - 0.3) > 1e-3) {
-      EXPECT_NEAR(find_compliance(5, sphere, 12 * d).slope, (above - below) / (2 * step), 1e-6);
+      EXPECT_NEAR(compute_compliance(5, sphere, 12 * d).slope, (above - below) / (2 * step), 1e-6);
     }
   }
 }

@@ -13,25 +13,25 @@ TEST(LesionLayers, AreCountedFromTheEdgeBeforeACell) {
   // A row with centres 20 um apart (cells of 24 um), and to its side one that begins farther out.
   const std::vector<LayerCell> cells{at(50, 0),  at(70, 0), at(90, 0),
                                      at(110, 0), at(0, 90), at(0, 110)};
-  EXPECT_EQ(find_layers(cells, Vec3::Zero()), (std::vector<int>{1, 2, 3, 4, 1, 2}));
+  EXPECT_EQ(compute_layers(cells, Vec3::Zero()), (std::vector<int>{1, 2, 3, 4, 1, 2}));
 }
 
 TEST(LesionLayers, AreSharedByCellsLessThanHalfADiameterBehindEachOther) {
-  EXPECT_EQ(find_layers(std::vector{at(0, -55), at(0, -62, 10), at(5, -66)}, Vec3::Zero()),
+  EXPECT_EQ(compute_layers(std::vector{at(0, -55), at(0, -62, 10), at(5, -66)}, Vec3::Zero()),
             (std::vector<int>{1, 1, 1}));
 }
 
 TEST(LesionLayers, BeginAnewOneDiameterHigherOrAside) {
-  EXPECT_EQ(find_layers(std::vector{at(50, 0), at(75, 0, 23)}, Vec3::Zero()),
+  EXPECT_EQ(compute_layers(std::vector{at(50, 0), at(75, 0, 23)}, Vec3::Zero()),
             (std::vector<int>{1, 2}));
-  EXPECT_EQ(find_layers(std::vector{at(50, 0), at(75, 0, 25)}, Vec3::Zero()),
+  EXPECT_EQ(compute_layers(std::vector{at(50, 0), at(75, 0, 25)}, Vec3::Zero()),
             (std::vector<int>{1, 1}));
-  EXPECT_EQ(find_layers(std::vector{at(50, 0), at(70, 25)}, Vec3::Zero()),
+  EXPECT_EQ(compute_layers(std::vector{at(50, 0), at(70, 25)}, Vec3::Zero()),
             (std::vector<int>{1, 1}));
 }
 
 TEST(LesionLayers, AreCountedFromTheAxis) {
-  EXPECT_EQ(find_layers(std::vector{at(150, 7), at(174, 7)}, Vec3(100, 7, 0)),
+  EXPECT_EQ(compute_layers(std::vector{at(150, 7), at(174, 7)}, Vec3(100, 7, 0)),
             (std::vector<int>{1, 2}));
 }
 

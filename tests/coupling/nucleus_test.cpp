@@ -59,7 +59,7 @@ TEST(NucleusInACell, ReturnsToTheMiddle) {
   EXPECT_LT(std::abs(after), 0.1);
   // Of sums over 100 points: 1e2 kEps.
   EXPECT_LT(w.state.balance.momentum, 1e-12);
-  EXPECT_EQ(find_nucleus_leak(w.state).depth_um, 0);
+  EXPECT_EQ(measure_nucleus_leak(w.state).depth_um, 0);
 }
 
 class Integrators : public testing::TestWithParam<Integrator> {};
@@ -161,7 +161,7 @@ TEST(NucleusInACell, EachDaughterHasOne) {
   const LifeReport report = look(w, 60);
   ASSERT_EQ(report.divisions.size(), 1u);
   EXPECT_EQ(count_events(report, EventKind::kSettlingFailed), 0);
-  EXPECT_EQ(find_nucleus_leak(w.state).depth_um, 0);
+  EXPECT_EQ(measure_nucleus_leak(w.state).depth_um, 0);
   const double at_rest = 4.0 / 3 * kPi * 6 * 6 * 6;
   for (std::size_t lane : {0u, 1u}) {
     ASSERT_TRUE(w.state.dcm.active(lane));
@@ -178,7 +178,7 @@ TEST(NucleusInACell, EachDaughterHasOne) {
     ASSERT_TRUE(r.accepted) << r.cause;
     live(w, work);
   }
-  EXPECT_EQ(find_nucleus_leak(w.state).depth_um, 0);
+  EXPECT_EQ(measure_nucleus_leak(w.state).depth_um, 0);
 }
 
 TEST(NucleusInACell, GrowsWithIt) {
@@ -220,7 +220,7 @@ TEST(NucleusInACell, SurvivesAFreshMesh) {
   ASSERT_EQ(count_events(report, EventKind::kRemeshed), 1);
   EXPECT_EQ(count_events(report, EventKind::kSettlingFailed), 0);
   EXPECT_EQ(w.state.dcm.birth[0].link.size(), 42u);
-  EXPECT_EQ(find_nucleus_leak(w.state).depth_um, 0);
+  EXPECT_EQ(measure_nucleus_leak(w.state).depth_um, 0);
   // Chords of the turned mesh cut off at most 1 - (1 - 14 / 42 / 5)^(3/2) of it; bulk regains it.
   EXPECT_NEAR(nucleus_volume(w.state, 0) / before, 1, 0.05);
   ASSERT_TRUE(run_until(w, work, w.state.clock.time + 600));
@@ -234,7 +234,7 @@ TEST(NucleusInACell, ShrinksInLysis) {
   w.state.dcm.volume[0] = {kBirthVolume, 0.2 * kBirthVolume, 0, 7200};
   SizedWorkspace work(w);
   ASSERT_TRUE(run_until(w, work, 7200));
-  EXPECT_EQ(find_nucleus_leak(w.state).depth_um, 0);
+  EXPECT_EQ(measure_nucleus_leak(w.state).depth_um, 0);
   EXPECT_NEAR(nucleus_volume(w.state, 0) / (0.2 * kBirthVolume / 8), 1, 0.05);
 }
 
@@ -258,11 +258,11 @@ TEST(NucleusInACell, HasTheSameBitsForOneAndTwoThreads) {
 
 TEST(NucleusLeak, IsFoundByCell) {
   World w = nucleated_pair();
-  EXPECT_EQ(find_nucleus_leak(w.state).depth_um, 0);
+  EXPECT_EQ(measure_nucleus_leak(w.state).depth_um, 0);
   std::vector<Vec3> node = nucleus_of(w.state, 1);
   node[3] = Vec3(23, 0, 0) + Vec3(0, 0, 40);
   dcm::store_nucleus(node, 1, w.state.dcm);
-  const NucleusLeak leak = find_nucleus_leak(w.state);
+  const NucleusLeak leak = measure_nucleus_leak(w.state);
   EXPECT_EQ(leak.cell, 1);
   // 40 um from the centre of a mesh of 42 nodes and 12 um: faces stand 10 % inside, nodes 6 % out.
   EXPECT_NEAR(leak.depth_um, 28, 1.3);

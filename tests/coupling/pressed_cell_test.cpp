@@ -64,8 +64,8 @@ TEST(PressedCell, DentsASphereAsMuchAsItsPressureSays) {
     for (const contact::Contact& c : work.contacts.interface()) depth = std::max(depth, -c.gap);
     const cbm::Params& p = w.params.cbm[0];
     const double young = w.state.cbm.young[0];
-    const double bed = find_compliance(w.params.dcm_contact.repulsion,
-                                       {12, young, p.poisson, {young, 0}, nullptr}, depth)
+    const double bed = compute_compliance(w.params.dcm_contact.repulsion,
+                                          {12, young, p.poisson, {young, 0}, nullptr}, depth)
                            .stiffness;
     const double pressure = measure_cells(w, work).front().cytosol_pressure;
     std::printf("%.2f h: pressure %.0f Pa, deepest dent %.2f um, of its bed %.0f Pa\n", k / 4.0,

@@ -40,7 +40,7 @@ PairAtRest settle(World& world, double time) {
   EXPECT_TRUE(run_until(world, work, time));
   observe(world, work);
   const std::vector<CellMeasure> cell = measure_cells(world, work);
-  return {cell, find_adhesion(world, work).area, (cell[1].center - cell[0].center).norm()};
+  return {cell, measure_adhesion(world, work).area, (cell[1].center - cell[0].center).norm()};
 }
 
 TEST(TriangleContactSteps, APairAdheresAndSettlesInOrdinarySteps) {

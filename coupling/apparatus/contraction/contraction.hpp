@@ -1,5 +1,5 @@
 #pragma once
-/// Active tension of the cortex over time. Its distribution over the surface is part of the model:
+/// Active tension of the cortex over time. Its distribution over the surface belongs to the model:
 /// dcm::ContractileRing.
 
 #include <vector>

@@ -10,7 +10,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// Spring that holds a cell; without stiffness if none does.
+/// Spring on a cell; zero stiffness without one.
 PullSpring spring_of(const std::vector<Pull>& pulls, std::int64_t lineage, double time) {
   PullSpring spring;
   for (const Pull& p : pulls)

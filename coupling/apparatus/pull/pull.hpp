@@ -1,5 +1,5 @@
 #pragma once
-/// Forces on single cells over time: prescribed, or by a spring whose far end is moved.
+/// Forces on single cells over time: prescribed, or of a spring with a moving far end.
 
 #include <vector>
 
@@ -9,15 +9,15 @@
 
 namespace acinus::coupling {
 
-/// One of the two acts: the force, or a spring if `stiffness` is above 0. It ends when its cell
-/// divides or dies.
+/// Force on a cell, prescribed or of a spring (`stiffness` above 0). It ends with the division or
+/// death of its cell.
 struct Pull {
   int cell = 0;                    ///< lineage
   Vec3 direction = Vec3::UnitX();  ///< unit
   Schedule force;                  ///< nN along the direction, over s since t = 0
   double stiffness = 0;            ///< nN/um, deformable cells only
-  double anchor = 0;               ///< um along the direction, the far end before it moves
-  Schedule displacement;           ///< um by which it has moved, over s since t = 0
+  double anchor = 0;               ///< um along the direction, initial position of the far end
+  Schedule displacement;           ///< um, displacement of the far end over s since t = 0
 };
 
 /// Position of the far end of a spring, um along its direction.
@@ -25,14 +25,14 @@ inline double spring_end(const Pull& p, double time) {
   return p.anchor + (p.displacement.entry.empty() ? 0 : p.displacement.at(time));
 }
 
-/// Force along its direction on a cell whose centre is there, nN.
+/// Force along its direction on a cell with this centre, nN.
 inline double pull_force(const Pull& p, double time, const Vec3& center) {
   if (p.stiffness > 0) return p.stiffness * (spring_end(p, time) - center.dot(p.direction));
   return p.force.entry.empty() ? 0 : p.force.at(time);
 }
 
-/// All pulls of a scene. Forces are added as forces on whole cells, springs as loads; springs act
-/// from t = 0 on, and of two on one cell the later in the list does.
+/// Pulls of a scene. Prescribed forces are forces on whole cells, springs are loads. Springs act
+/// from t = 0 on; of two on one cell the later in the list acts.
 struct Pulls final : Device {
   std::vector<Pull> pull;
 

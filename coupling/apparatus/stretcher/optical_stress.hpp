@@ -11,22 +11,22 @@ inline constexpr double kLightSpeed = 2.99792458e14;  ///< um/s
 
 /// Two equal beams along one axis.
 struct LaserBeams {
-  double power = 0;      ///< nN um/s, 1e15 are a watt; of one beam
+  double power = 0;      ///< nN um/s (1e15 are a watt), of one beam
   double radius = 8.2;   ///< um
   double medium = 1.33;  ///< refractive index of the liquid
   double cell = 1.36;    ///< refractive index of the cell
 };
 
-/// Share of the light that the surface of the cell reflects at normal incidence.
-/// [VanLiedekerke2020, Eq. (29)]
+/// Fraction of light reflected by the surface of the cell at normal incidence. [VanLiedekerke2020,
+/// Eq. (29)]
 inline double reflectance(const LaserBeams& b) {
   const double r = (b.cell - b.medium) / (b.cell + b.medium);
   return r * r;
 }
 
-/// Stress on the surface where the axis meets it, kPa, outward positive: the momentum that the
-/// light of both beams gains there, over the beam's cross-section.
-/// [VanLiedekerke2020, Eq. (28) and (31), positive where those are negative]
+/// Stress on the surface at the axis, kPa, outward positive: momentum gained by the light of both
+/// beams over their cross-section. [VanLiedekerke2020, Eq. (28) and (31), positive where those are
+/// negative]
 inline double stress_amplitude(const LaserBeams& b) {
   const double r = reflectance(b);
   const double enters = b.medium - (1 - r) * b.cell + r * b.medium;

@@ -6,7 +6,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// Six times dV/dx of every node of a lane.
+/// Area vectors of all nodes of a lane, 6 dV/dx.
 void compute_gradients(const geometry::Topology& t, const std::vector<Vec3>& arm,
                        std::vector<Vec3>& gradient) {
   gradient.assign(arm.size(), Vec3::Zero());

@@ -1,5 +1,5 @@
 #pragma once
-/// Optical stretcher: two laser beams that pull at deformable cells while they shine.
+/// Optical stretcher: two laser beams that stretch deformable cells in pulses.
 
 #include <vector>
 
@@ -16,11 +16,11 @@ struct Pulse {
 
 struct Stretcher final : Device {
   LaserBeams beams;
-  Vec3 axis = Vec3::UnitX();  ///< of the beams, any length > 0
-  double exponent = 2;        ///< of the cosine of the angle to the axis, with which stress falls
-  std::vector<Pulse> pulse;   ///< intervals in which the beams shine
+  Vec3 axis = Vec3::UnitX();  ///< axis of the beams, any length > 0
+  double exponent = 2;        ///< exponent of the cosine of the angle to the axis
+  std::vector<Pulse> pulse;   ///< intervals with beams on
 
-  /// Load on every cell; without stress while the beams are off.
+  /// Load on every cell; zero stress with beams off.
   StretchLoad load_at(double time) const;
 
   double next_change(double time) const override;

@@ -12,9 +12,9 @@ struct Suction final : Device {
   Vec3 mouth = Vec3::Zero();  ///< as SuctionLoad
   Vec3 axis = Vec3::UnitZ();
   double reach = 0;
-  Schedule pressure;  ///< kPa below that outside, over s since t = 0; empty: none
+  Schedule pressure;  ///< kPa, pressure difference to the outside over s since t = 0; empty: none
 
-  /// Load on every cell; without pressure if there is no suction.
+  /// Load on every cell; zero pressure without suction.
   SuctionLoad load_at(double time) const;
 
   double next_change(double time) const override;

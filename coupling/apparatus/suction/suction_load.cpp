@@ -5,7 +5,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// positive_part of a triangle in which only corner `k` has the sign that is looked for.
+/// Positive part of a triangle with only corner `k` of its sign.
 std::array<double, 3> corner_part(const std::array<double, 3>& height, int k) {
   const int i = (k + 1) % 3, j = (k + 2) % 3;
   const double to_i = height[k] / (height[k] - height[i]),

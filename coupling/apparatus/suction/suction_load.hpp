@@ -1,5 +1,5 @@
 #pragma once
-/// Suction in a pipette: lower pressure outside that part of a cell which is inside the pipette.
+/// Suction by a pipette: reduced outside pressure on the part of a cell inside the pipette.
 
 #include <array>
 
@@ -11,14 +11,14 @@ namespace acinus::coupling {
 struct SuctionLoad {
   Vec3 mouth = Vec3::Zero();  ///< um, centre of the pipette's mouth
   Vec3 axis = Vec3::UnitZ();  ///< unit, from the mouth into the pipette
-  double reach = 0;           ///< um from the axis, what is farther out is not inside; within the
-                              ///< pipette's wall, where no surface is
-  double pressure = 0;        ///< kPa below that outside
+  double reach = 0;           ///< um, radius of the inside; it lies within the wall of the
+                              ///< pipette, which no cell surface enters
+  double pressure = 0;        ///< kPa, pressure difference to the outside
 };
 
-/// Adds pressure times area, along the outward normal, on the part of the surface behind the mouth.
-/// A triangle that the plane of the mouth cuts counts with the part behind it, so that the force
-/// has no jumps. It has a net force: whatever holds the cell, the pipette, balances it.
+/// Adds pressure times area, along the outward normal, on the surface behind the mouth. Triangles
+/// cut by the plane of the mouth count with their part behind it, so the force is continuous. The
+/// net force is balanced by the contact with the pipette.
 void add_suction_load(const dcm::GroupView& g, const SuctionLoad& load, solve::System& system);
 
 /// Integrals of the three linear shape functions of a triangle over its part where the linear

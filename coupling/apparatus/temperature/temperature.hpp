@@ -1,6 +1,5 @@
 #pragma once
-/// Temperature of the scene over time. Friction within the cortex falls with it; nothing else
-/// depends on it.
+/// Temperature of the scene over time. Only friction within the cortex depends on it.
 
 #include "core/numbers/schedule.hpp"
 #include "coupling/apparatus/device.hpp"
@@ -8,11 +7,11 @@
 namespace acinus::coupling {
 
 struct Temperature final : Device {
-  double activation = 55e18;  ///< fJ/mol, 1e18 are a kJ/mol
-  double reference = 290;     ///< K, at which the friction of the cell types is meant
-  Schedule course;            ///< K over s since t = 0; empty: always the reference
+  double activation = 55e18;  ///< fJ/mol (1e18 are a kJ/mol)
+  double reference = 290;     ///< K, temperature of the friction given for cell types
+  Schedule course;            ///< K over s since t = 0; empty: constant at the reference
 
-  /// Friction over that at the reference temperature.   [VanLiedekerke2020, Eq. (23)]
+  /// Friction over that at the reference temperature. [VanLiedekerke2020, Eq. (23)]
   double friction_factor(double time) const;
 
   double next_change(double time) const override;

@@ -1,4 +1,4 @@
-#include "coupling/zoom/cell_room.hpp"
+#include "coupling/zoom/cell_volume.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,20 +7,20 @@
 namespace acinus::coupling {
 namespace {
 
-/// No direction of a room is narrower than this share of the radius.
+/// Least extent of the available volume in any direction, over the radius.
 constexpr double kLeastReach = 0.2;
-constexpr int kTracingSteps = 60;
-constexpr double kTraced = 1e-3;  ///< um
+constexpr int kTracingSteps = 60;     ///< largest number of steps along a ray
+constexpr double kTracingGap = 1e-3;  ///< um, gap to a surface that ends a ray
 
-/// A triangle of a neighbour's surface as seen from the centre of the room.
+/// Triangle of a neighbour's surface that faces the centre.
 struct Facing {
   std::array<Vec3, 3> corner;  ///< um, from the centre
-  Vec3 axis = Vec3::UnitX();   ///< of a cone about it, of length 1
-  double least_cosine = 1;     ///< of the cone
+  Vec3 axis = Vec3::UnitX();   ///< unit axis of its bounding cone
+  double least_cosine = 1;     ///< cosine of the half angle of that cone
 };
 
-/// Everything near a sphere that bounds its room.
-struct Surroundings {
+/// Bounds of the available volume of a sphere.
+struct VolumeBounds {
   Vec3 center = Vec3::Zero();
   double farthest = 0, time = 0;
   std::vector<dcm::RoomFace> face;
@@ -32,7 +32,7 @@ struct Surroundings {
 };
 
 void add_spheres(const cbm::State& s, std::size_t self, std::span<const double> radius,
-                 Surroundings& around) {
+                 VolumeBounds& around) {
   for (std::size_t c = 0; c < s.n_cell(); ++c) {
     if (c == self) continue;
     const Vec3 way = cbm::center_of(s, c) - around.center;
@@ -43,7 +43,7 @@ void add_spheres(const cbm::State& s, std::size_t self, std::span<const double> 
   }
 }
 
-void add_surface(const dcm::State& s, std::size_t lane, Surroundings& around) {
+void add_surface(const dcm::State& s, std::size_t lane, VolumeBounds& around) {
   thread_local std::vector<Vec3> node;
   dcm::copy_nodes(s, lane, node);
   double nearest = around.farthest;
@@ -60,7 +60,7 @@ void add_surface(const dcm::State& s, std::size_t lane, Surroundings& around) {
       least = std::min(least, f.corner[k].norm());
     }
     const Vec3 normal = (f.corner[1] - f.corner[0]).cross(f.corner[2] - f.corner[0]);
-    if (least >= around.farthest || normal.dot(middle) >= 0) continue;  // seen from its back
+    if (least >= around.farthest || normal.dot(middle) >= 0) continue;  // its outer side faces away
     f.axis = middle.normalized();
     for (const Vec3& x : f.corner)
       f.least_cosine = std::min(f.least_cosine, f.axis.dot(x.normalized()));
@@ -68,7 +68,7 @@ void add_surface(const dcm::State& s, std::size_t lane, Surroundings& around) {
   }
 }
 
-void add_boundary(const contact::Boundary& b, Surroundings& around) {
+void add_boundary(const contact::Boundary& b, VolumeBounds& around) {
   const auto is_near = [&](double gap) { return gap < around.farthest; };
   const auto keep_near = [&](const auto& walls, auto& kept) {
     for (const auto& wall : walls)
@@ -86,11 +86,11 @@ void add_boundary(const contact::Boundary& b, Surroundings& around) {
       around.mesh.push_back(&m);
 }
 
-bool has_boundary(const Surroundings& around) {
+bool has_boundary(const VolumeBounds& around) {
   return !around.boundary.empty() || !around.segment.empty() || !around.mesh.empty();
 }
 
-double gap_at(const Surroundings& around, const Vec3& x) {
+double gap_at(const VolumeBounds& around, const Vec3& x) {
   double gap = around.farthest;
   contact::for_each_wall(around.boundary, [&](auto, auto, const auto& wall) {
     gap = std::min(gap, contact::gap_to_wall(wall, x, around.time).gap);
@@ -102,12 +102,12 @@ double gap_at(const Surroundings& around, const Vec3& x) {
   return gap;
 }
 
-/// How far one gets before rigid surfaces: steps as long as nothing is nearer.
-double trace(const Surroundings& around, const Vec3& direction, double farthest) {
+/// Length of a ray up to rigid surfaces, um, by sphere tracing.
+double trace(const VolumeBounds& around, const Vec3& direction, double farthest) {
   double reach = 0;
   for (int step = 0; step < kTracingSteps && reach < farthest; ++step) {
     const double gap = gap_at(around, around.center + reach * direction);
-    if (gap < kTraced) return reach;
+    if (gap < kTracingGap) return reach;
     reach += gap;
   }
   return std::min(reach, farthest);
@@ -126,27 +126,28 @@ double reach_to_triangle(const Facing& f, const Vec3& direction, double farthest
   return t > 0 ? std::min(t, farthest) : farthest;
 }
 
-double find_reach(const Surroundings& around, const Vec3& direction) {
+double compute_reach(const VolumeBounds& around, const Vec3& direction) {
   double reach = dcm::reach_to_faces(direction, around.farthest, around.face);
   for (const Facing& f : around.facing)
     if (direction.dot(f.axis) >= f.least_cosine) reach = reach_to_triangle(f, direction, reach);
   if (has_boundary(around)) reach = trace(around, direction, reach);
-  return std::max(reach, kLeastReach / kRoomReach * around.farthest);
+  return std::max(reach, kLeastReach / kRayReach * around.farthest);
 }
 
 }  // namespace
 
-dcm::Room find_room(const World& world, std::size_t sphere, std::span<const double> radius) {
+dcm::Room make_available_volume(const World& world, std::size_t sphere,
+                                std::span<const double> radius) {
   const State& s = world.state;
-  Surroundings around;
+  VolumeBounds around;
   around.center = cbm::center_of(s.cbm, sphere);
-  around.farthest = kRoomReach * radius[sphere];
+  around.farthest = kRayReach * radius[sphere];
   around.time = time_since_start(world);
   add_spheres(s.cbm, sphere, radius, around);
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
     if (s.dcm.active(l)) add_surface(s.dcm, l, around);
   add_boundary(world.params.boundary, around);
-  return {around.center, [around](const Vec3& d) { return find_reach(around, d); }};
+  return {around.center, [around](const Vec3& d) { return compute_reach(around, d); }};
 }
 
 }  // namespace acinus::coupling
