@@ -18,6 +18,9 @@ constexpr double kDifference = 1e-3;  ///< relative step of difference quotients
 constexpr double kLeastPower = 1.05;
 constexpr double kNormal95 = 1.96;
 constexpr std::size_t kLeastSamples = 8;
+/// Least modulus that a term adds at the end of the range, over that of plain spheres: below it the
+/// solver stands at its bound, zero to rounding.
+constexpr double kLeastGain = 1e-6;
 
 /// Snapshots of the fit, with derived numbers.
 struct Samples {
@@ -159,7 +162,7 @@ std::vector<FitAttempt> fit_law(const Compression& compression, const cbm::Param
   Residuals residuals{samples, sphere, leading, options.free_power ? 2 : 1};
   const Solution best = solve(residuals);
   const cbm::StiffnessLaw::Term term = leading.at(best.x);
-  check(std::isfinite(term.factor) && term.factor > 0,
+  check(std::isfinite(term.factor) && best.x[0] > kLeastGain,
         fmt::format("calibration: no positive a1 fits (found {:.4g} kPa): these deformable cells "
                     "are softer than spheres at every overlap, so spheres need no correction",
                     term.factor),

@@ -336,8 +336,8 @@ def check_tree(facts):
 WRONG = [  # lines, with a part of what is to be said about each
     ("[a](docs/b.md)", "no such file"),
     ("[a](README.md#no-words)", "no such heading"),
-    ("`core/nowhere.hpp`", "no such file"),
-    ("`nowhere.hpp`", "no source writes one"),
+    ("`core/lost.hpp`", "no such file"),
+    ("`no" "where.hpp`", "no source writes one"),  # in two pieces: this source must not write one
     ("the scene `nowhere`", "no such scene"),
     ("the test `nowhere_test`", "no such test"),
     ("`acinus walk`", "no such command"),

@@ -59,8 +59,9 @@ inline std::string nifti(const LabelImage& image, std::int16_t units, float slop
 }
 
 /// The message with which an image is refused.
-inline std::string refusal(const std::string& path, const ReadImage& how = {}) {
-  return test::message_of([&] { read_image(path, how); });
+inline std::string refusal(const std::string& path, const ReadImage& how = {},
+                           Exit code = Exit::kBadInput) {
+  return test::message_of([&] { read_image(path, how); }, code);
 }
 
 }  // namespace acinus::imaging

@@ -119,10 +119,10 @@ TEST_F(ReadHdf5, ReservesNothingForNumbersThatAreNotThere) {
   Hdf5Dataset d{{1000, 1000, 1000}, {}, "", {}, {1, 1, 1}, {100, 100, 100}, 0, false};
   EXPECT_CONTAINS(refused(d), "none were ever written");
   std::ofstream(path(), std::ios::binary) << "nothing";
-  EXPECT_CONTAINS(refusal(path()), "is no HDF5 file");
+  EXPECT_CONTAINS(refusal(path(), {}, Exit::kFileError), "is no HDF5 file");
   write_dataset(path(), {{2, 3, 4}, numbers("zyx", {2, 3, 4})});
   std::filesystem::resize_file(path(), std::filesystem::file_size(path()) - 8);
-  EXPECT_CONTAINS(refusal(path()), "cut short");
+  EXPECT_CONTAINS(refusal(path(), {}, Exit::kFileError), "cut short");
 }
 
 }  // namespace
