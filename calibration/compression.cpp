@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "coupling/measure/measure.hpp"
-#include "coupling/step/sizing.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 

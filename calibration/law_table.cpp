@@ -19,7 +19,7 @@ constexpr int kRounds = 4;  ///< of corrections; the error stays the same after 
 /// Largest factor by which one round changes a modulus.
 constexpr double kLargestChange = 1.5;
 
-/// Overlap with the modulus that fits it.
+/// Modulus that spheres need at the overlap of one snapshot to carry the force of the cells.
 struct Demand {
   double overlap = 0, modulus = 0;
   double force = 0;  ///< nN, of the cells

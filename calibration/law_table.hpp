@@ -8,16 +8,20 @@
 
 namespace acinus::calibration {
 
-/// Mean force, nN, on the inner ones of spheres with a law in the places of a snapshot.
+/// Mean force, nN, on the inner cells when spheres with this law stand at the positions of a
+/// snapshot.
 double force_with(const Law& law, const ClumpSnapshot& snapshot, const cbm::Params& sphere,
                   const std::vector<std::size_t>& inner);
 
-/// Law with the table that makes spheres exert the forces of the cells, from the snapshot on at
-/// which these are smallest after the first tenth of the compression. a0 is the modulus at which
-/// spheres rest where the deformable cells do. Moduli never fall with d. First all spheres get the
-/// modulus that fits the snapshot, at the mean d; then the error that remains with moduli by each
-/// sphere's own d is corrected.
-/// @param known  other members of the law: a1, range and parameters
+/// Tabulates the modulus over the relative overlap d so that spheres at the positions of a snapshot
+/// carry the mean force of the deformable cells. Snapshots before the least force are left out; it
+/// is searched after the first tenth of the compression. a0 is the modulus at which spheres rest
+/// where the deformable cells do. Moduli never fall with d. First all spheres get the modulus that
+/// fits the snapshot, at the mean d; then the error that remains with moduli by each sphere's own d
+/// is corrected.
+/// @param compression  snapshots of the deformable cells
+/// @param sphere       constants of the spheres without a law
+/// @param known        other members of the law: a1, range and parameters
 /// @return `known` itself where the compression gives too little data for a table
 Law tabulate_law(const Compression& compression, const cbm::Params& sphere, const Law& known);
 

@@ -57,14 +57,15 @@ struct ContactWorkspace {
   std::vector<std::vector<std::pair<int, int>>> touching_part;  ///< of other threads than the first
   std::vector<TypeFactors> type_factors;  ///< [type]; written by: find_contacts
   std::vector<double> contact_area;       ///< [n_cell] um^2, sum over all contacts
-  /// [n_cell] sum of the relative overlaps with cells and walls, without vessels and meshes. By
-  /// compute_overlaps; the DCM-CBM interface adds its own. Empty: no law needs it.
+  /// [n_cell] sum of the relative overlaps with cells and walls, without vessels and meshes;
+  /// written by: compute_overlaps; the DCM-CBM interface adds its own. Empty: no law needs it.
   std::vector<double> overlap_sum;
-  /// [n_cell] contacts in that sum, each with its share. Empty: no law takes the mean.
+  /// [n_cell] number of contacts in overlap_sum, each weighted by its strength. Empty: no law takes
+  /// the mean.
   std::vector<double> overlap_count;
   std::vector<Modulus> modulus;  ///< [n_cell] kPa, from the overlaps; written by: find_contacts
-  /// [n_cell] nN/um, bound C_i of the additional stiffness of a contact of a cell because its
-  /// modulus grows with all its overlaps; written by: find_contacts. Empty: no law corrects.
+  /// [n_cell] nN/um, upper bound C_i of the stiffness that a contact gains because the modulus of
+  /// the cell grows with all its overlaps; written by: find_contacts. Empty: no law corrects.
   std::vector<double> coupling;
   std::vector<double> scratch;  ///< of one function at a time
   int list_builds = 0;

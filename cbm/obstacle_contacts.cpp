@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "cbm/vessel_contact.hpp"
+#include "cbm/vessel_stiffness.hpp"
 #include "contact/boundary.hpp"
 #include "contact/jkr.hpp"
 #include "geometry/measures.hpp"

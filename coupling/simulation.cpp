@@ -9,7 +9,7 @@
 #include "coupling/life/rules.hpp"
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/start_up.hpp"
-#include "coupling/step/sizing.hpp"
+#include "coupling/step/workspace_size.hpp"
 
 namespace acinus::coupling {
 namespace {

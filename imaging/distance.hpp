@@ -26,7 +26,7 @@ struct Grid {
 
 /// Computes the signed distance of every centre from the nearest voxel of the other kind, um,
 /// negative inside: the wall lies in the middle between two voxels of different kind. Exact, by one
-/// pass an axis [Felzenszwalb2012].
+/// pass per axis [Felzenszwalb2012].
 /// @param inside  [z][y][x], with at least one voxel of each kind
 void compute_signed_distance(const std::vector<std::uint8_t>& inside, Grid& grid);
 

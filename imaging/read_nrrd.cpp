@@ -106,7 +106,7 @@ void take_nrrd_steps(const HeaderFields& h, ImageFile& out) {
                                      geometry::in_quotes(h.text(name))));
 }
 
-/// Quoted texts, one an axis.
+/// Quoted texts, one per axis.
 std::vector<std::string> quoted(const std::string& text) {
   std::vector<std::string> all;
   for (std::size_t at = 0; (at = text.find('"', at)) != text.npos;) {

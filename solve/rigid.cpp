@@ -68,7 +68,7 @@ Map3x6 unit_motions(const Vec3& from_center) {
   return m;
 }
 
-/// Offsets of the numbers in a sum over the points of a group.
+/// Layout of the sums over the points of a group: residual, then friction with its moments.
 enum Number : std::size_t {
   kResidual = 0,
   kMass = 6,  ///< of medium friction, and its moments about the centre

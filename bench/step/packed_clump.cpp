@@ -4,8 +4,8 @@
 
 #include "core/error.hpp"
 #include "coupling/step/controller.hpp"
-#include "coupling/step/sizing.hpp"
 #include "coupling/step/step.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/scene/reader.hpp"
 

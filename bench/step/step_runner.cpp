@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/parallel/clock.hpp"
 #include "coupling/step/controller.hpp"
-#include "coupling/step/sizing.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/scene/reader.hpp"
 

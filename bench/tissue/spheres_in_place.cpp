@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "coupling/measure/measure.hpp"
-#include "coupling/step/sizing.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "coupling/world/workspace.hpp"
 
 namespace acinus::bench {

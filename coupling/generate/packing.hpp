@@ -36,7 +36,7 @@ struct BoxParameters {
 /// rows along x, shifted in turn, stacked as a close packing. Errors as make_clump.
 std::vector<Vec3> make_box(const BoxParameters& parameters, const Uniform& uniform);
 
-/// Indices of the points along a Hilbert curve through their bounding cube (2^16 steps an axis):
+/// Indices of the points along a Hilbert curve through their bounding cube (2^16 steps per axis):
 /// order[k] is the k-th point. Equal keys keep the given order. Points must be finite.
 std::vector<int> space_filling_order(std::span<const Vec3> point);
 

@@ -6,7 +6,7 @@
 
 #include "core/sphere.hpp"
 #include "coupling/step/loop.hpp"
-#include "coupling/step/sizing.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "geometry/measures.hpp"
 
 namespace acinus::coupling {

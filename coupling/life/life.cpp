@@ -14,7 +14,7 @@
 #include "coupling/life/mesh_health.hpp"
 #include "coupling/life/rules.hpp"
 #include "coupling/sleep/sleep.hpp"
-#include "coupling/step/sizing.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "coupling/subworld/settle.hpp"
 #include "coupling/world/cell.hpp"
 #include "coupling/world/population.hpp"

@@ -12,7 +12,7 @@
 #include "core/parallel/stop.hpp"
 #include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
-#include "coupling/step/sizing.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "coupling/subworld/settle.hpp"
 #include "coupling/world/cell.hpp"
 #include "dcm/shape/mesh_remedy.hpp"

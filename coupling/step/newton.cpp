@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "coupling/step/sizing.hpp"
 #include "coupling/step/solve.hpp"
+#include "coupling/step/workspace_size.hpp"
 
 namespace acinus::coupling {
 namespace {

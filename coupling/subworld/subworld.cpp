@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "coupling/step/loop.hpp"
-#include "coupling/step/sizing.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "coupling/world/cell.hpp"
 #include "coupling/world/population.hpp"
 #include "geometry/box_pairs.hpp"

@@ -13,7 +13,7 @@
 #include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
 #include "coupling/measure/measure.hpp"
-#include "coupling/step/sizing.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "coupling/subworld/settle.hpp"
 #include "coupling/world/cell.hpp"
 #include "coupling/world/fading.hpp"

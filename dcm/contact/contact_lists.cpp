@@ -149,8 +149,8 @@ void compute_motion(const contact::SurfaceBody& now, ListSnapshot& s) {
   s.spread = std::sqrt(spread2);
 }
 
-/// Test for motion of the network beyond the allowance of the lists of segments. If so they have to
-/// be rebuilt, and the motion counts from the present network.
+/// True if the network moved farther than the lists of segments allow. The present network then
+/// becomes the new reference of its motion.
 bool network_moved(const ListInput& in, double most, ContactLists& lists) {
   if (!in.network_moves || geometry::largest_motion(in.network, lists.network) <= most)
     return false;

@@ -35,7 +35,7 @@ struct ListedBody {
   std::int64_t lineage = -1;
   const geometry::Topology* topology = nullptr;
   bool constrained = false, ghost = false;
-  Box box;  ///< when pairs were searched
+  Box box;  ///< at the last search for pairs
   std::vector<ListSnapshot> snapshot;
 };
 

@@ -1,5 +1,11 @@
 #pragma once
 /// Contact of a nucleus with the inside of its cortex.
+///
+/// Contacts of ContactKind::kNucleus join a point of the cortex (contact::Quadrature::kThreePoint)
+/// and the nearest place of the nucleus. The gap is that of the surfaces minus the one at which
+/// repulsion begins. Only the cortex probes: the distance from a convex body to a point outside has
+/// a direction that changes smoothly. That from a node of the nucleus to the concave cortex around
+/// it jumps from face to face, and steps would chatter.
 
 #include <vector>
 
@@ -9,12 +15,6 @@
 #include "solve/links.hpp"
 
 namespace acinus::dcm {
-
-/// Contacts of ContactKind::kNucleus join a point of the cortex (contact::Quadrature::kThreePoint)
-/// and the nearest place of the nucleus. The gap is that of the surfaces minus the one at which
-/// repulsion begins. Only the cortex probes: the distance from a convex body to a point outside has
-/// a direction that changes smoothly, that from a node of the nucleus to the concave cortex around
-/// it jumps from face to face, and steps would chatter.
 
 /// Scratch of nucleus contacts; empty without nuclei.
 struct NucleusWorkspace {

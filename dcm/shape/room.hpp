@@ -38,7 +38,7 @@ class Room {
   /// Radius of the ball in which the part has this volume, um; `largest` if that is too small.
   double find_radius(double volume, double largest) const;
 
-  /// Nodes of a mesh spread over the surface of the part within a ball.
+  /// Nodes of a mesh spread over the surface of the part of the room within a ball, um.
   /// @param direction  [n_node] of length 1, to the nodes of the whole ball
   /// @return           [n_node] um
   std::vector<Vec3> fill(const geometry::Topology& topology, std::span<const Vec3> direction,

@@ -14,7 +14,8 @@ struct Barrier {
 };
 /// Barrier of bending: begins at 60 degrees between the faces, and is linear below 11.
 constexpr Barrier kBending{-0.5, 0.02};
-/// Barrier of contact of the faces: begins at 26 degrees, and is linear below 3.6.
+/// Barrier that keeps the two faces of a hinge apart: begins at 26 degrees between them, and is
+/// linear below 3.6.
 constexpr Barrier kTouching{-0.9, 0.002};
 /// Depth at which two faces pressed on each other have the energy scale of the barrier of contact,
 /// um.

@@ -20,8 +20,8 @@ inline constexpr std::array<double, 3> kLongest{1.7320508075688772, 1.4142135623
 /// Largest distance of a tetrahedron's points from the midpoint of its longest edge.
 inline constexpr std::array<double, 3> kExtent{0.8660254037844387, 0.7071067811865476,
                                                0.7071067811865476};
-/// Largest distance from that midpoint to the midpoints of all further bisections: the sum of the
-/// distances from one bisection to the next.
+/// Bound of the distance from the midpoint of the longest edge to the midpoints of all further
+/// bisections: the sum of the distances from one bisection to the next.
 inline constexpr std::array<double, 3> kRemaining{2.8660254037844387, 2.3660254037844387,
                                                   1.8660254037844387};
 /// Distance to a surface within which all tetrahedra must have its size, in sides of the cube at

@@ -28,7 +28,7 @@ struct ComparedRun {
 std::vector<ComparedRun> open_compared_runs(const std::vector<std::string>& folders,
                                             std::optional<double> until);
 
-/// Reason why the last common frame is not at the judged time, the end of the run or `until`.
+/// Reason why the last common frame is not at the judged time (`until` if given, else the end).
 struct Shortfall {
   std::string why;   ///< empty: none
   bool own = false;  ///< the run itself ended early; else others have no frame there

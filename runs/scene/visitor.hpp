@@ -57,7 +57,7 @@ struct Key {
   const char* choices = "";  ///< "dcm|cbm|zoom"; "" = any
   const char* symbol = "";   ///< in the paper
   bool required = false;
-  const char* automatic = "";        ///< what "auto" stands for; "" = "auto" is not allowed
+  const char* automatic = "";        ///< meaning of "auto"; "" = "auto" is not allowed
   bool is_file = false;              ///< a text that is a path, or one of the choices
   bool is_run = false;               ///< a text that is the path of a run folder
   bool is_name = false;              ///< a text that is a name: letters, digits, _ and -

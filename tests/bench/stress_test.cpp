@@ -8,7 +8,7 @@
 
 #include "bench/stress/inspect.hpp"
 #include "bench/stress/random_scene.hpp"
-#include "coupling/step/sizing.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/session/make_frame.hpp"
 #include "runs/session/soundness.hpp"

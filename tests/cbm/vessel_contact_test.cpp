@@ -1,6 +1,6 @@
 /// Spheres with a law beside vessels and mirror walls.
 
-#include "cbm/vessel_contact.hpp"
+#include "cbm/vessel_stiffness.hpp"
 
 #include <gtest/gtest.h>
 

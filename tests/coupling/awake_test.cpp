@@ -1,7 +1,7 @@
 /// Steps of a world in which cells sleep.
 
 #include "coupling/sleep/partial_step.hpp"
-#include "coupling/step/sizing.hpp"
+#include "coupling/step/workspace_size.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "coupling/step/controller.hpp"
-#include "coupling/step/sizing.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {

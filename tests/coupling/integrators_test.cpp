@@ -1,8 +1,8 @@
 /// The three ways to take a step, on one stretched cell that relaxes in a liquid.
 
 #include "coupling/step/controller.hpp"
-#include "coupling/step/sizing.hpp"
 #include "coupling/step/step.hpp"
+#include "coupling/step/workspace_size.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,8 +12,8 @@
 
 #include "core/parallel/threads.hpp"
 #include "coupling/measure/pair_contacts.hpp"
-#include "coupling/step/sizing.hpp"
 #include "coupling/step/step.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "tests/coupling/partitioned.hpp"
 #include "tests/coupling/worlds.hpp"

@@ -10,7 +10,7 @@
 
 #include "coupling/measure/measure.hpp"
 #include "coupling/step/controller.hpp"
-#include "coupling/step/sizing.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "geometry/measures.hpp"
 #include "tests/coupling/lives.hpp"
 #include "tests/messages.hpp"

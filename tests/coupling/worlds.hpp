@@ -9,8 +9,8 @@
 
 #include "coupling/measure/measure.hpp"
 #include "coupling/sleep/partial_step.hpp"
-#include "coupling/step/sizing.hpp"
 #include "coupling/step/step.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "coupling/world/cell.hpp"
 #include "coupling/world/world.hpp"
 #include "geometry/topology.hpp"

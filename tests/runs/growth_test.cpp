@@ -7,7 +7,7 @@
 
 #include "contact/jkr.hpp"
 #include "coupling/step/controller.hpp"
-#include "coupling/step/sizing.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/scene/reader.hpp"

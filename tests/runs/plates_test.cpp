@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "coupling/simulation.hpp"
-#include "coupling/step/sizing.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/scene/reader.hpp"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "coupling/step/sizing.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/snapshot.hpp"
 #include "runs/scene/reader.hpp"

@@ -1,4 +1,4 @@
-#include "cbm/vessel_contact.hpp"
+#include "cbm/vessel_stiffness.hpp"
 
 #include "contact/vessel_yield.hpp"
 

@@ -1,4 +1,4 @@
-#include "coupling/step/sizing.hpp"
+#include "coupling/step/workspace_size.hpp"
 
 #include <span>
 #include <utility>
