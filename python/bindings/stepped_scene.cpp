@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/error.hpp"
@@ -35,17 +36,11 @@ coupling::World build(const runs::Scene& scene, std::vector<std::string>& type_n
 
 bool is_finite(const Vec3& x) { return x.allFinite(); }
 
-/// The cell of a lineage.   @throws Error
-coupling::Cell find_cell(const coupling::State& s, std::int64_t lineage) {
-  coupling::Cell found;
-  bool has = false;
-  coupling::for_each_cell(s, [&](const coupling::Cell& c) {
-    if (coupling::lineage_of(s, c) != lineage) return;
-    found = c;
-    has = true;
-  });
-  check(has, fmt::format("there is no cell {} now", lineage));
-  return found;
+/// The living cell of a lineage.   @throws Error
+coupling::Cell require_cell(const coupling::State& s, std::int64_t lineage) {
+  const std::optional<coupling::Cell> found = coupling::find_cell(s, lineage);
+  check(found.has_value(), fmt::format("there is no cell {} now", lineage));
+  return *found;
 }
 
 }  // namespace
@@ -103,7 +98,7 @@ void SteppedScene::take_back() {
 
 void SteppedScene::move(std::int64_t lineage, const std::vector<Vec3>& point) {
   coupling::State& s = simulation_.world().state;
-  const coupling::Cell c = find_cell(s, lineage);
+  const coupling::Cell c = require_cell(s, lineage);
   const std::size_t n = c.deformable ? s.dcm.group[c.at / kLanes].topology->n_node : 1;
   check(point.size() == n, fmt::format("cell {} has {} points, not {}", lineage, n, point.size()));
   check(std::ranges::all_of(point, is_finite),
@@ -120,7 +115,7 @@ void SteppedScene::move(std::int64_t lineage, const std::vector<Vec3>& point) {
 
 void SteppedScene::set_pull(std::int64_t lineage, const Vec3& force) {
   coupling::State& s = simulation_.world().state;
-  const coupling::Cell c = find_cell(s, lineage);
+  const coupling::Cell c = require_cell(s, lineage);
   check(is_finite(force), fmt::format("pull on cell {}: is not finite", lineage));
   (c.deformable ? s.dcm.pull : s.cbm.pull)[c.at] = force;
 }
