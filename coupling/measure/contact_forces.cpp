@@ -8,7 +8,7 @@
 #include "core/disjoint_sets.hpp"
 #include "core/numbers/exact_sum.hpp"
 #include "coupling/measure/pair_contacts.hpp"
-#include "coupling/world/fading.hpp"
+#include "coupling/migration/fading.hpp"
 #include "dcm/contact/contact_points.hpp"
 
 namespace acinus::coupling {

@@ -5,9 +5,9 @@
 
 #include "core/numbers/random.hpp"
 #include "core/parallel/threads.hpp"
+#include "coupling/migration/fading.hpp"
 #include "coupling/migration/leaders.hpp"
 #include "coupling/world/contact_input.hpp"
-#include "coupling/world/fading.hpp"
 #include "dcm/contact/contact.hpp"
 #include "dcm/terms/medium.hpp"
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/parallel/clock.hpp"
+#include "coupling/step/sharing.hpp"
 #include "coupling/step/workspace_size.hpp"
 
 namespace acinus::coupling {

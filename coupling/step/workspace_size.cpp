@@ -6,7 +6,7 @@
 
 #include "core/parallel/arrays.hpp"
 #include "coupling/step/ghost_cells.hpp"
-#include "coupling/world/sharing.hpp"
+#include "coupling/step/sharing.hpp"
 #include "dcm/loads/loads.hpp"
 
 namespace acinus::coupling {

@@ -3,13 +3,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "core/parallel/timing.hpp"
 #include "coupling/interface/interface.hpp"
 #include "coupling/world/cell_forces.hpp"
 #include "coupling/world/constraint.hpp"
-#include "coupling/world/sharing.hpp"
 #include "coupling/world/world.hpp"
 #include "dcm/contact/contact_workspace.hpp"
 #include "dcm/contact/nucleus_contact.hpp"
@@ -18,6 +18,13 @@
 #include "solve/rigid.hpp"
 
 namespace acinus::coupling {
+
+/// Measured costs of cells, the weights of the partition.
+struct MeasuredCost {
+  std::unordered_map<std::int64_t, double> of_cell;  ///< s per step, by lineage
+  double busy = 0;         ///< s, busy time of this process up to the last check
+  std::int64_t steps = 0;  ///< steps accepted since then
+};
 
 /// Point of linearisation of a step, as displacements from the present positions; empty: the
 /// present positions.

@@ -4,19 +4,12 @@
 
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 
+#include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 #include "solve/system.hpp"
 
 namespace acinus::coupling {
-
-/// Measured costs of cells, the weights of the partition.
-struct MeasuredCost {
-  std::unordered_map<std::int64_t, double> of_cell;  ///< s per step, by lineage
-  double busy = 0;         ///< s, busy time of this process up to the last check
-  std::int64_t steps = 0;  ///< steps accepted since then
-};
 
 /// Partitions the blocks of a world. With too few blocks ownership is whole: every process computes
 /// everything. Collective call.

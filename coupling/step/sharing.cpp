@@ -1,4 +1,4 @@
-#include "coupling/world/sharing.hpp"
+#include "coupling/step/sharing.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "coupling/world/fading.hpp"
+#include "coupling/migration/fading.hpp"
 
 #include <algorithm>
 
