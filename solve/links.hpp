@@ -59,7 +59,7 @@ struct LinkLoad {
   double force = 0;  ///< nN, positive pushes apart
   /// Slope of the law of the closed gap, force = -closed_stiffness * gap; nN/um. 0: no such law.
   double closed_stiffness = 0;
-  double clearance = 0;  ///< um, distance to that branch; not positive: the contact is on it
+  double clearance = 0;       ///< um, distance to that branch; not positive: the contact is on it
   std::uint32_t contact = 0;  ///< its index in the list of contacts
 };
 
