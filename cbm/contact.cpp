@@ -222,7 +222,10 @@ void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
 void add_vessel_loads(const ContactInput& in, const contact::ContactList& contacts,
                       solve::Links& links) {
   if (in.vessel_row == contact::kAtRest) return;
-  for (const Contact& k : contacts.sphere_obstacle()) {
+  const std::size_t first = contacts.first(contact::ContactKind::kSphereObstacle);
+  const std::span<const Contact> obstacle = contacts.sphere_obstacle();
+  for (std::size_t n = 0; n < obstacle.size(); ++n) {
+    const Contact& k = obstacle[n];
     if (!acts_on_moving_vessel(in, k)) continue;
     const std::size_t i = k.a, l = links.size();
     links.resize(l + 1);
@@ -232,7 +235,7 @@ void add_vessel_loads(const ContactInput& in, const contact::ContactList& contac
     // Spheres may overlap without limit: no depth is too large.
     solve::set_law(k.slope, k.friction, std::numeric_limits<double>::infinity(), k.normal,
                    links.link[l]);
-    links.load[l] = {k.normal, k.force, 0, 0, static_cast<std::uint32_t>(&k - contacts.all.data())};
+    links.load[l] = {k.normal, k.force, 0, 0, static_cast<std::uint32_t>(first + n)};
   }
 }
 

@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/parallel/threads.hpp"
 #include "coupling/step/cell_sums.hpp"
 
 namespace acinus::coupling {
 
+namespace {
+
+/// Norm of an error field, um: the larger of its rms and a fifth of its maximum over nodes. With
+/// random motility the mean of every cell is left out: it is white noise, integrated exactly.
+/// @param field  [n_row][3][lane] um
 double error_norm(const World& world, const Workspace& w, std::span<const double> field) {
   const bool noise = world.params.motility.random &&
                      controls_at(world.state.clock, world.params.start_up).motility;
@@ -31,6 +37,8 @@ double error_norm(const World& world, const Workspace& w, std::span<const double
   const auto [sum2, n] = p.number;
   return n > 0 ? std::max(std::sqrt(sum2 / n), std::sqrt(p.largest) / 5) : 0;
 }
+
+}  // namespace
 
 double estimate_error(const World& world, double step, Workspace& w) {
   const State& s = world.state;
