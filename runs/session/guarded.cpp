@@ -11,9 +11,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <exception>
 
 #include "core/error.hpp"
+#include "runs/session/exit_code.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -40,20 +40,6 @@ class SignalsTaken {
  private:
   sigset_t taken_{}, before_{};
 };
-
-/// Does the work in the child and prints its errors there: exceptions do not cross processes.
-/// @return exit code
-int do_work(const std::function<int()>& work) {
-  try {
-    return work();
-  } catch (const Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return static_cast<int>(error.code());
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "internal error: {}\n", error.what());
-  }
-  return static_cast<int>(Exit::kInternal);
-}
 
 /// Forwards signals to the child until it has ended.
 /// @return its wait status
@@ -82,7 +68,7 @@ int run_guarded(const std::string& files, const std::function<int()>& work) {
     signals.give_back();
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(static_cast<int>(Exit::kStopped));
-    const int code = do_work(work);
+    const int code = exit_code_of(work);  // exceptions do not cross processes
     std::fflush(nullptr);
     _exit(code);
   }

@@ -4,7 +4,10 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <stdexcept>
+
 #include "core/error.hpp"
+#include "runs/session/together.hpp"
 #include "tests/messages.hpp"
 
 namespace acinus::runs {
@@ -15,6 +18,9 @@ TEST(Guarded, GivesTheExitCodeOfTheWork) {
   EXPECT_EQ(run_guarded("a.h5", [] { return 75; }), 75);
   EXPECT_EQ(run_guarded("a.h5", []() -> int { throw Error("no"); }), 2);
   EXPECT_EQ(run_guarded("a.h5", []() -> int { throw Error("no", Exit::kFileError); }), 4);
+  EXPECT_EQ(run_guarded("a.h5", []() -> int { throw std::runtime_error("no"); }), 1);
+  EXPECT_EQ(run_guarded("a.h5", []() -> int { throw FailedElsewhere(3); }), 3);
+  EXPECT_EQ(run_guarded("a.h5", []() -> int { throw 7; }), 1) << "no crash";
 }
 
 TEST(Guarded, ACrashIsADamagedFile) {
