@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/units/dimension.hpp"
 #include "core/units/unit_parser.hpp"
-#include "core/units/unit_scale.hpp"
 
 namespace acinus {
 namespace {
@@ -157,13 +156,6 @@ double parse_quantity(std::string_view text, Dimension needed) {
   return scaled(number, scale, text);
 }
 
-UnitScale scale_of_unit(std::string_view unit) {
-  if (unit.empty() || unit == "1") return {};
-  if (unit.starts_with("1/")) unit.remove_prefix(1);  // a number is no unit
-  const Scale scale = parse_unit(unit, unit);
-  return {scale.dimension, scaled(scan_number("1"), scale, unit)};
-}
-
 std::string format_quantity(double value, Dimension dimension, std::string_view unit) {
   check(std::isfinite(value), fmt::format("cannot write {} as a quantity", value));
   const std::string gap = unit.empty() ? "" : " ";
@@ -197,6 +189,13 @@ std::string format_quantity(double value, Dimension dimension, std::string_view 
   }
   const std::string base = base_unit(dimension);
   return tidy(fmt::format("{:.16e}", value)) + (base.empty() ? "" : " ") + base;
+}
+
+UnitScale scale_of_unit(std::string_view unit) {
+  if (unit.empty() || unit == "1") return {};
+  if (unit.starts_with("1/")) unit.remove_prefix(1);  // a number is no unit
+  const Scale scale = parse_unit(unit, unit);
+  return {scale.dimension, scaled(scan_number("1"), scale, unit)};
 }
 
 }  // namespace acinus

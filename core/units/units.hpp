@@ -26,4 +26,15 @@ double parse_quantity(std::string_view text, Dimension needed);
 /// @throws Error: the unit does not have the dimension, or the value is not finite.
 std::string format_quantity(double value, Dimension dimension, std::string_view unit);
 
+/// A unit that is known only at run time: of a column of a file, of an observable.
+struct UnitScale {
+  Dimension dimension;
+  double in_base = 1;  ///< one of the unit in base units (um, s, nN, K, mol)
+};
+
+/// Dimension and size of a unit.
+/// @param unit  "kPa", "1/um^3", "d"; "" and "1" are dimensionless
+/// @throws Error naming the part that is not understood
+UnitScale scale_of_unit(std::string_view unit);
+
 }  // namespace acinus

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/spelling.hpp"
-#include "core/units/unit_scale.hpp"
+#include "core/units/units.hpp"
 #include "runs/study/scene_value.hpp"
 #include "runs/study/study_value.hpp"
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/units/unit_scale.hpp"
+#include "core/units/units.hpp"
 #include "io/disk.hpp"
 #include "io/run_reader.hpp"
 #include "io/tidy_table.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/numbers/time_grid.hpp"
-#include "core/units/unit_scale.hpp"
+#include "core/units/units.hpp"
 #include "runs/study/study_value.hpp"
 
 namespace acinus::runs {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/units/unit_scale.hpp"
 #include "core/units/units.hpp"
 
 namespace acinus::runs {

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/units/unit_scale.hpp"
 #include "core/units/units.hpp"
 #include "runs/study/read_study.hpp"
 #include "runs/study/scene_value.hpp"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/units/unit_scale.hpp"
+#include "core/units/units.hpp"
 #include "runs/scene/explain.hpp"
 #include "runs/study/choose_runs.hpp"
 #include "runs/study/curves.hpp"
