@@ -25,9 +25,9 @@
 #include "bench/tissue/sleeping_lobule.hpp"
 #include "bench/work_precision/work_precision.hpp"
 #include "core/error.hpp"
+#include "core/parallel/machine.hpp"
 #include "core/parallel/ranks.hpp"
 #include "core/parallel/threads.hpp"
-#include "core/parallel/timing.hpp"
 #include "runs/session/together.hpp"
 
 namespace acinus::bench {

@@ -3,8 +3,8 @@
 #include <benchmark/benchmark.h>
 
 #include "acinus_version.hpp"
+#include "core/parallel/machine.hpp"
 #include "core/parallel/threads.hpp"
-#include "core/parallel/timing.hpp"
 
 int main(int argc, char** argv) {
   // A kernel is what one thread does; the CPU time reported is that of the calling thread alone.

@@ -1,11 +1,15 @@
 #include "core/parallel/memory.hpp"
 
 #include <malloc.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <string>
+
+#include "core/parallel/system_entry.hpp"
 
 namespace acinus {
 namespace {
@@ -23,6 +27,20 @@ double machine_memory() {
   const double physical =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   return std::min(physical, group_limit());
+}
+
+std::uint64_t rss_bytes() {
+  const std::string entry = read_system_entry("/proc/self/status", "VmRSS");
+  return entry.empty() ? 0 : 1024 * std::stoull(entry);
+}
+
+std::uint64_t peak_rss_bytes() {
+  // getrusage comes second: its peak survives exec, so it may be that of the starting shell.
+  const std::string entry = read_system_entry("/proc/self/status", "VmHWM");
+  if (!entry.empty()) return 1024 * std::stoull(entry);
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024 * static_cast<std::uint64_t>(usage.ru_maxrss);
 }
 
 void keep_freed_memory() {

@@ -1,10 +1,18 @@
 #pragma once
-/// Memory of the machine, and reuse of freed memory.
+/// Memory of the machine and of this process, and reuse of freed memory.
+
+#include <cstdint>
 
 namespace acinus {
 
 /// Memory of this machine, or of the control group of this process if that has less, bytes.
 double machine_memory();
+
+/// Resident memory of this process, bytes.
+std::uint64_t rss_bytes();
+
+/// Largest resident memory of this process so far, bytes.
+std::uint64_t peak_rss_bytes();
 
 /// Makes the allocator keep large freed arrays for reuse by the next step: fresh memory from the
 /// system costs as much as writing to it.

@@ -1,5 +1,5 @@
 #pragma once
-/// Wall and CPU time of stages, memory use, and the machine of the measurement.
+/// Wall and CPU time of stages.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,12 +8,6 @@
 #include <vector>
 
 namespace acinus {
-
-/// Resident memory of this process, bytes.
-std::uint64_t rss_bytes();
-
-/// Largest resident memory of this process so far, bytes.
-std::uint64_t peak_rss_bytes();
 
 /// Times of one named stage, including those of stages nested in it.
 struct StageTime {
@@ -55,16 +49,5 @@ class Timings {
   std::size_t find_or_add(std::string_view name);
   std::vector<StageTime> stages_;
 };
-
-/// Widest of "avx512f", "avx2", "sse2" that this processor supports; "generic" off x86.
-std::string_view best_instruction_set();
-
-struct Machine {
-  std::string cpu_model;        ///< "unknown" if the system does not report it
-  int cores = 1;                ///< logical cores this process may use
-  std::string instruction_set;  ///< best_instruction_set()
-};
-
-Machine describe_machine();
 
 }  // namespace acinus

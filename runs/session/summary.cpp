@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "acinus_version.hpp"
+#include "core/parallel/machine.hpp"
+#include "core/parallel/memory.hpp"
 #include "core/parallel/timing.hpp"
 #include "io/disk.hpp"
 #include "runs/assemble/build_world.hpp"

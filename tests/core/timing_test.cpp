@@ -1,8 +1,6 @@
 #include "core/parallel/timing.hpp"
 
 #include <gtest/gtest.h>
-#include <cstdio>
-#include <vector>
 
 #include "core/parallel/clock.hpp"
 
@@ -41,24 +39,6 @@ TEST(Timings, ClearWhileAScopeIsOpenIsHarmless) {
     timings.clear();
   }
   EXPECT_TRUE(timings.stages().empty());
-}
-
-TEST(Timings, PeakMemorySeesALargeBlock) {
-  const std::uint64_t before = peak_rss_bytes();
-  EXPECT_GT(before, 1u << 20);
-  const std::vector<char> block(before + (32u << 20), 1);
-  EXPECT_GE(peak_rss_bytes(), before + (16u << 20));
-  EXPECT_EQ(block.back(), 1);
-}
-
-TEST(Timings, MachineIsDescribed) {
-  const Machine machine = describe_machine();
-  std::printf("%s, %d cores, %s, peak %.1f MB, cpu %.3f s\n", machine.cpu_model.c_str(),
-              machine.cores, machine.instruction_set.c_str(),
-              1e-6 * static_cast<double>(peak_rss_bytes()), cpu_seconds());
-  EXPECT_FALSE(machine.cpu_model.empty());
-  EXPECT_GE(machine.cores, 1);
-  EXPECT_EQ(machine.instruction_set, best_instruction_set());
 }
 
 }  // namespace
