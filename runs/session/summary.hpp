@@ -10,6 +10,7 @@
 #include "runs/experiments/measures.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/session/run_options.hpp"
+#include "runs/session/run_outcome.hpp"
 #include "runs/session/totals.hpp"
 
 namespace acinus::runs {
