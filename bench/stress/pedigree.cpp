@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/sphere.hpp"
+#include "coupling/life/cell_cycle.hpp"
 #include "coupling/world/cell.hpp"
 
 namespace acinus::bench {

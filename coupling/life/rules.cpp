@@ -6,6 +6,7 @@
 #include "core/numbers/random.hpp"
 #include "core/numbers/time_grid.hpp"
 #include "core/sphere.hpp"
+#include "coupling/life/cell_cycle.hpp"
 #include "coupling/life/density.hpp"
 #include "coupling/life/proliferation.hpp"
 #include "coupling/measure/measure.hpp"

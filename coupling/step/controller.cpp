@@ -11,6 +11,7 @@
 #include "coupling/step/balance.hpp"
 #include "coupling/step/balance_shares.hpp"
 #include "coupling/step/constrained_points.hpp"
+#include "coupling/step/move_points.hpp"
 #include "coupling/step/step.hpp"
 #include "dcm/tensions.hpp"
 

@@ -6,6 +6,7 @@
 #include "core/parallel/arrays.hpp"
 #include "core/parallel/threads.hpp"
 #include "coupling/step/constrained_points.hpp"
+#include "coupling/step/move_points.hpp"
 #include "coupling/world/cell.hpp"
 
 namespace acinus::coupling {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "coupling/step/move_points.hpp"
 #include "coupling/step/solve.hpp"
 #include "coupling/step/workspace_size.hpp"
 

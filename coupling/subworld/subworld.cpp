@@ -5,8 +5,8 @@
 
 #include "coupling/step/loop.hpp"
 #include "coupling/step/workspace_size.hpp"
+#include "coupling/subworld/population.hpp"
 #include "coupling/world/cell.hpp"
-#include "coupling/world/population.hpp"
 #include "geometry/box_pairs.hpp"
 
 namespace acinus::coupling {

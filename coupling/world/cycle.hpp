@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/numbers/ramp.hpp"
 #include "core/vec.hpp"
 
 namespace acinus::coupling {
@@ -15,7 +14,7 @@ namespace acinus::coupling {
 enum class DivisionAxis { kRandom, kPlane, kGiven, kVessel };  // kPlane: random, horizontal
 enum class InhibitedBy { kNothing, kPressure, kVolume, kDensity };
 
-/// Contact inhibition of growth, a Hill function; see growth_factor.
+/// Contact inhibition of growth, a Hill function (growth_factor of life/cell_cycle.hpp).
 struct Inhibition {
   InhibitedBy by = InhibitedBy::kNothing;
   double threshold = 0;  ///< kPa, V / V0, or cells per um^3
@@ -92,28 +91,5 @@ struct Cycle {
   double duration = 0;      ///< s, cycle time without inhibition
   double wait_until = 0;    ///< s, clock time of the next attempt after a failed division
 };
-
-/// Cycle time of a cell, s: mean of the type with a Gaussian deviation.
-double draw_cycle_time(const CycleParams& p, std::uint64_t seed, std::int64_t lineage);
-
-/// Initial age of a cell as a share of its cycle, [0, 1): its reference volume is (1 + age) times
-/// that at birth. 0 unless the type starts at random ages.
-double draw_start_age(const CycleParams& p, std::uint64_t seed, std::int64_t lineage);
-
-/// Reference volume over time: grows at alpha = birth volume / cycle time until doubled.
-/// [VanLiedekerke2020, Eq. (18)]
-/// @param factor  of growth_factor; 0 keeps the volume
-Ramp growth_from(const Cycle& cycle, double volume_now, double time, double factor);
-
-/// Input of contact inhibition.
-struct Crowding {
-  double pressure = 0;         ///< kPa, contact pressure
-  double relative_volume = 1;  ///< V / V0
-  double density = 0;          ///< cells per um^3 around the cell
-};
-
-/// Share of the free growth rate: 1 / (1 + (x / x0)^n) by pressure or density, x^n / (1 + x^n) with
-/// x = (V / V0) / threshold by volume.
-double growth_factor(const Inhibition& p, const Crowding& now);
 
 }  // namespace acinus::coupling

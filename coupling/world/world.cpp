@@ -79,13 +79,6 @@ double* position_of(State& s, Address point) {
   return const_cast<double*>(position_of(std::as_const(s), point));
 }
 
-void move_points(State& s, std::span<const double> d) {
-  auto &dcm = s.dcm.position, &cbm = s.cbm.position;
-  for_each_number(dcm.size(), [&](std::size_t k) { dcm[k] += d[k]; });
-  for_each_number(cbm.size(), [&](std::size_t k) { cbm[k] += d[dcm.size() + k]; });
-  if (!s.tree.node.empty()) move_tree(d.subspan(dcm.size() + cbm.size()), s.tree);
-}
-
 std::uint64_t hash_state(const State& s) {
   XXH64_state_t* hash = XXH64_createState();
   XXH64_reset(hash, 0);

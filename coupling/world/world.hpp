@@ -209,10 +209,6 @@ void gather_positions(const State& state, std::vector<double>& out);
 double* position_of(State& state, Address point);
 const double* position_of(const State& state, Address point);
 
-/// Moves all unknowns.
-/// @param by  [n_row][3][lane] um
-void move_points(State& state, std::span<const double> by);
-
 /// Hash of the whole state in storage order; equal bits give equal hashes.
 std::uint64_t hash_state(const State& state);
 

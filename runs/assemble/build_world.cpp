@@ -13,6 +13,7 @@
 #include "core/sphere.hpp"
 #include "coupling/generate/lobule.hpp"
 #include "coupling/generate/packing.hpp"
+#include "coupling/life/cell_cycle.hpp"
 #include "coupling/life/rules.hpp"
 #include "coupling/start_shapes.hpp"
 #include "coupling/start_up.hpp"

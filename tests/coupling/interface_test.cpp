@@ -12,6 +12,7 @@
 
 #include "core/parallel/threads.hpp"
 #include "coupling/measure/pair_contacts.hpp"
+#include "coupling/step/move_points.hpp"
 #include "coupling/step/step.hpp"
 #include "coupling/step/workspace_size.hpp"
 #include "dcm/contact/contact_params.hpp"

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "core/parallel/threads.hpp"
+#include "coupling/life/cell_cycle.hpp"
 #include "coupling/measure/measure.hpp"
 #include "geometry/audit_body.hpp"
 #include "geometry/measures.hpp"

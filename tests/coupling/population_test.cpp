@@ -1,6 +1,6 @@
 /// New states made of cells of others: nothing that belongs to a cell gets lost or mixed up.
 
-#include "coupling/world/population.hpp"
+#include "coupling/subworld/population.hpp"
 
 #include <gtest/gtest.h>
 

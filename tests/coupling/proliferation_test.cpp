@@ -7,8 +7,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "coupling/life/cell_cycle.hpp"
 #include "coupling/life/density.hpp"
-#include "coupling/world/population.hpp"
+#include "coupling/subworld/population.hpp"
 #include "tests/coupling/lives.hpp"
 
 namespace acinus::coupling {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "coupling/measure/audit.hpp"
-#include "coupling/world/population.hpp"
+#include "coupling/subworld/population.hpp"
 #include "geometry/measures.hpp"
 #include "tests/coupling/worlds.hpp"
 

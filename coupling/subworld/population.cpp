@@ -1,4 +1,4 @@
-#include "coupling/world/population.hpp"
+#include "coupling/subworld/population.hpp"
 
 #include "core/parallel/arrays.hpp"
 #include "core/parallel/threads.hpp"

@@ -1,4 +1,4 @@
-#include "coupling/world/cycle.hpp"
+#include "coupling/life/cell_cycle.hpp"
 
 #include <algorithm>
 #include <cmath>
