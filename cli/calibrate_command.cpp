@@ -8,7 +8,7 @@
 #include "cli/wall_time.hpp"
 #include "core/parallel/stop.hpp"
 #include "core/units/dimension.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 
 namespace acinus::cli {

@@ -8,7 +8,7 @@
 #include "core/parallel/stop.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/assemble/memory_need.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 
 namespace acinus::cli {

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "cli/command.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 #include "runs/session/guarded.hpp"
 

@@ -15,7 +15,7 @@
 #include "geometry/wrap.hpp"
 #include "io/surface_file.hpp"
 #include "runs/assemble/build_boundary.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 
 namespace acinus::cli {

@@ -12,7 +12,7 @@
 #include "core/parallel/stop.hpp"
 #include "core/units/dimension.hpp"
 #include "runs/calibrate/law_cache.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/run_options.hpp"

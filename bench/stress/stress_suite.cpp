@@ -17,7 +17,7 @@
 #include "core/error.hpp"
 #include "io/disk.hpp"
 #include "runs/assemble/build_world.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/session/child.hpp"
 
 namespace acinus::bench {

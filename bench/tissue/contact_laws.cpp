@@ -16,7 +16,7 @@
 #include "coupling/simulation.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "runs/assemble/build_world.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 
 namespace acinus::bench {

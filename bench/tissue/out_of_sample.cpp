@@ -18,7 +18,7 @@
 #include "runs/assemble/build_world.hpp"
 #include "runs/assemble/read_cells.hpp"
 #include "runs/calibrate/calibrate_scene.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 #include "runs/session/read_summary.hpp"
 #include "runs/session/stage.hpp"

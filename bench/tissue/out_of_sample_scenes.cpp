@@ -1,6 +1,6 @@
 #include "bench/tissue/out_of_sample_scenes.hpp"
 
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 #include "runs/scene/writer.hpp"
 

@@ -13,7 +13,7 @@
 #include "core/error.hpp"
 #include "runs/assemble/read_cells.hpp"
 #include "runs/calibrate/law_cache.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 #include "runs/scene/writer.hpp"
 #include "runs/session/stage.hpp"

@@ -11,7 +11,7 @@
 #include "dcm/contact/contact_params.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/pull_off_experiment.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 
 namespace acinus::bench {

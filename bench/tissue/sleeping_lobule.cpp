@@ -11,7 +11,7 @@
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/assemble/build_world.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 
 namespace acinus::bench {

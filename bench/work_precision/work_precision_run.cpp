@@ -12,7 +12,7 @@
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/assemble/build_world.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 
 namespace acinus::bench {
 namespace {

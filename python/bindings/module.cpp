@@ -10,7 +10,7 @@
 #include "runs/calibrate/calibrate_scene.hpp"
 #include "runs/calibrate/law_cache.hpp"
 #include "runs/compare/compare.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/run_options.hpp"

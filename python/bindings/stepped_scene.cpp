@@ -13,8 +13,8 @@
 #include "core/parallel/threads.hpp"
 #include "coupling/world/cell.hpp"
 #include "runs/calibrate/law_cache.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/frame_times.hpp"
-#include "runs/scene/reader.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 
 namespace acinus::python {

@@ -2,8 +2,6 @@
 
 #include <array>
 
-#include "runs/scene/scene_rules.hpp"
-
 namespace acinus::runs {
 namespace {
 
@@ -15,10 +13,6 @@ constexpr std::array kRows{ACINUS_EXPERIMENTS(ACINUS_ROW)};
 
 const ExperimentRow& experiment_row(Experiment experiment) {
   return *kRows.at(static_cast<std::size_t>(experiment));
-}
-
-void check_experiment(const Scene& scene, Report& report) {
-  if (const auto check = experiment_row(scene.experiment).check) check(scene, report);
 }
 
 void sample_experiment(const ObservedFrame& frame, ObservedRun& observed) {

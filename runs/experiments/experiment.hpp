@@ -15,16 +15,15 @@
 #include "runs/experiments/observed_frame.hpp"
 #include "runs/experiments/observed_run.hpp"
 #include "runs/scene/experiment_list.hpp"
-#include "runs/scene/fault_report.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/scene/scene_rules.hpp"
 
 namespace acinus::runs {
 
 /// Row of the table: everything particular to one experiment. A null pointer: it has none.
 struct ExperimentRow {
-  const char* meaning = "";  ///< one line
-  /// Adds the rules that its scenes break to the report.
-  void (*check)(const Scene& scene, Report& report) = nullptr;
+  const char* meaning = "";   ///< one line
+  SceneRule check = nullptr;  ///< adds the rules that its scenes break to the report
   /// Columns of /observables besides those of every scene, in their order.
   std::vector<Observable> (*columns)() = nullptr;
   /// Adds one number to each of its series, the same series at every frame. Series without a column

@@ -10,7 +10,7 @@
 #include "geometry/implicit/vessel_mesh.hpp"
 #include "io/run_reader.hpp"
 #include "runs/assemble/build_boundary.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -12,9 +12,9 @@
 #include "core/sphere.hpp"
 #include "io/disk.hpp"
 #include "io/surface_file.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/json_text.hpp"
 #include "runs/scene/key_reader.hpp"
-#include "runs/scene/reader.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "io/checkpoint.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 #include "runs/session/read_summary.hpp"
 #include "runs/session/run_folder.hpp"

@@ -8,16 +8,15 @@
 
 namespace acinus::runs {
 
+/// Adds the broken rules of some keys to the report.
+using SceneRule = void (*)(const Scene& scene, Report& report);
+
 /// Adds every broken rule to the report. Rules about keys that are already reported are left out.
-void check_rules(const Scene& scene, Report& report);
+/// @param of_experiment  rule of the scene's experiment (runs/experiments/experiment.hpp) or null
+void check_rules(const Scene& scene, Report& report, SceneRule of_experiment);
 
 /// Checks steps and the times between frames and other events. @pre called by check_rules
 void check_times(const Scene& scene, Report& report);
-
-/// Checks the rule of the scene's experiment. It stands in the row of the experiment and so is
-/// defined with the table of experiments (runs/experiments/experiment.cpp). @pre called by
-/// check_rules
-void check_experiment(const Scene& scene, Report& report);
 
 /// Checks growth, division and death. @pre called by check_rules
 void check_life(const Scene& scene, Report& report);

@@ -19,10 +19,10 @@
 #include "io/inside.hpp"
 #include "runs/assemble/memory_need.hpp"
 #include "runs/assemble/place_cells.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/bounded_json.hpp"
 #include "runs/scene/document.hpp"
 #include "runs/scene/entries.hpp"
-#include "runs/scene/reader.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 #include "runs/scene/writer.hpp"
 

@@ -12,7 +12,7 @@
 #include "coupling/step/step.hpp"
 #include "coupling/step/workspace_size.hpp"
 #include "runs/assemble/build_world.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/session/make_frame.hpp"
 
 namespace acinus::bench {

@@ -16,7 +16,7 @@
 #include "io/checkpoint.hpp"
 #include "io/run_file.hpp"
 #include "io/run_reader.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/session/read_summary.hpp"
 #include "runs/study/read_study.hpp"
 #include "service/serve/submission.hpp"

@@ -11,7 +11,7 @@
 #include "runs/assemble/build_world.hpp"
 #include "runs/assemble/cell_constants.hpp"
 #include "runs/assemble/place_cells.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 
 namespace acinus::runs {
 namespace {

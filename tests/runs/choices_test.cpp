@@ -6,7 +6,7 @@
 
 #include "coupling/step/step.hpp"
 #include "dcm/contact/contact_params.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "tests/runs/scene_texts.hpp"
 
 namespace acinus::runs {

@@ -13,7 +13,7 @@
 #include "runs/assemble/build_boundary.hpp"
 #include "runs/assemble/build_life.hpp"
 #include "runs/assemble/build_params.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "tests/runs/scene_texts.hpp"
 
 namespace acinus::runs {

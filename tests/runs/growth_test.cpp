@@ -10,7 +10,7 @@
 #include "coupling/step/workspace_size.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/experiment.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -10,10 +10,10 @@
 
 #include "runs/assemble/build_correction.hpp"
 #include "runs/assemble/start_state.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/differences.hpp"
 #include "runs/scene/entries.hpp"
 #include "runs/scene/key_values.hpp"
-#include "runs/scene/reader.hpp"
 #include "runs/scene/registry_blocks.hpp"
 #include "tests/runs/scene_texts.hpp"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/json_text.hpp"
-#include "runs/scene/reader.hpp"
 #include "tests/paths.hpp"
 #include "tests/runs/scene_texts.hpp"
 

@@ -4,9 +4,9 @@
 
 #include "core/error.hpp"
 #include "core/units/units.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/scene/entries.hpp"
 #include "runs/scene/explain.hpp"
-#include "runs/scene/reader.hpp"
 #include "runs/scene/schema.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 #include "tests/paths.hpp"

@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "io/disk.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "tests/messages.hpp"
 
 namespace acinus::runs::scene_texts {

@@ -6,8 +6,8 @@
 
 #include "coupling/step/workspace_size.hpp"
 #include "runs/assemble/build_world.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/experiments/snapshot.hpp"
-#include "runs/scene/reader.hpp"
 #include "runs/session/make_frame.hpp"
 #include "tests/messages.hpp"
 #include "tests/reference/brick.hpp"

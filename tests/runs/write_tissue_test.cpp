@@ -5,8 +5,8 @@
 #include "core/sphere.hpp"
 #include "geometry/measures.hpp"
 #include "runs/assemble/build_world.hpp"
+#include "runs/experiments/read_scene.hpp"
 #include "runs/images/write_tissue.hpp"
-#include "runs/scene/reader.hpp"
 #include "tests/imaging/labelled_balls.hpp"
 
 namespace acinus::runs {

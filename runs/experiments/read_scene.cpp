@@ -1,10 +1,11 @@
-#include "runs/scene/reader.hpp"
+#include "runs/experiments/read_scene.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 
 #include "io/checkpoint.hpp"
+#include "runs/experiments/experiment.hpp"
 #include "runs/scene/key_reader.hpp"
 #include "runs/scene/registry.hpp"
 #include "runs/scene/scene_rules.hpp"
@@ -29,6 +30,12 @@ void name_the_nameless(Scene& scene) {
   }
 }
 
+/// Hash of the state at t = 0 that a run left in its folder for others to start from.
+/// @throws Error (kFileError) if its start.h5 cannot be read
+std::string read_start_hash(const std::string& run_folder) {
+  return io::load_state_file(run_folder + "/start.h5").text("state_hash");
+}
+
 }  // namespace
 
 Scene read_scene(const Document& document, const std::string& label) {
@@ -38,16 +45,12 @@ Scene read_scene(const Document& document, const std::string& label) {
   if (scene.name.empty()) scene.name = default_name(label);
   if (scene.model) scene.cells.model = *scene.model;
   name_the_nameless(scene);
-  check_rules(scene, report);
+  check_rules(scene, report, experiment_row(scene.experiment).check);
   report.finish();
   scene.file = label;
   if (!scene.start_up.from.empty()) scene.start_state = read_start_hash(scene.start_up.from);
   set_canonical(scene);
   return scene;
-}
-
-std::string read_start_hash(const std::string& run_folder) {
-  return io::load_state_file(run_folder + "/start.h5").text("state_hash");
 }
 
 Scene read_scene(const std::string& path, const std::vector<std::string>& set) {

@@ -26,8 +26,4 @@ Scene parse_scene(const std::string& text, const std::string& label,
 /// @param label  the scene's file in messages; its stem is the default scene name
 Scene read_scene(const Document& document, const std::string& label);
 
-/// Hash of the state at t = 0 that a run left in its folder for others to start from.
-/// @throws Error (kFileError) if its start.h5 cannot be read
-std::string read_start_hash(const std::string& run_folder);
-
 }  // namespace acinus::runs
