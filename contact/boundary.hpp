@@ -29,7 +29,7 @@ struct Plane {
   Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();
   double speed = 0;   ///< um/s along the normal
   double travel = 0;  ///< um, distance after which the motion stops
-  Material material;
+  Material material{.mirror = true};
   double opens = std::numeric_limits<double>::infinity();  ///< s, time at which it vanishes
   Vec3 point_at(double time) const;  ///< out of any cell's reach once it vanished
 };
@@ -53,9 +53,9 @@ struct Pipette {
   Vec3 mouth = Vec3::Zero();  ///< centre of the plane in which the tube begins
   Vec3 axis = Vec3::UnitZ();  ///< unit, from the mouth into the tube
   double radius = 0;          ///< um, inner
-  double thickness = 0;       ///< um, of the wall
-  double lip = 0;             ///< um, radius of the rims; at most half the thickness and the length
-  double length = 0;          ///< um, along the axis
+  double thickness = 3;       ///< um, of the wall
+  double lip = 1;             ///< um, radius of the rims; at most half the thickness and the length
+  double length = 100;        ///< um, along the axis
   double opens = std::numeric_limits<double>::infinity();  ///< s, time at which it vanishes
   Material material;
 };
@@ -64,7 +64,7 @@ struct Vessels {
   geometry::Network network;
   /// Surface that cells touch in place of the cones of the network; null: the cones.
   std::shared_ptr<const WallMesh> wall;
-  Material material;
+  Material material = kVesselMaterial;
   std::vector<std::vector<int>> segments_of_node;  ///< [node] segments that end there
 };
 

@@ -18,11 +18,11 @@ namespace acinus::coupling {
 enum class VesselAnchors { kEnds, kNone };
 
 struct TubeMaterial {
-  double young = 0;     ///< kPa
-  double poisson = 0;   ///< 1
-  double wall = 0;      ///< um, thickness
-  double pressure = 0;  ///< kPa, inside over outside
-  double friction = 0;  ///< nN s/um^3, of the surface with its environment
+  double young = contact::kVesselMaterial.young;      ///< kPa
+  double poisson = contact::kVesselMaterial.poisson;  ///< 1
+  double wall = 1;                                    ///< um, thickness
+  double pressure = 0;                                ///< kPa, inside over outside
+  double friction = 0.1;  ///< nN s/um^3, of the surface with its environment
 };
 
 /// Constants of a vessel tree. Without segments there is no tree and vessels are rigid.

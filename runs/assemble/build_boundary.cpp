@@ -100,7 +100,7 @@ void add_boundary(const Scene& scene, const coupling::Lobule* lobule, contact::B
   contact::set_network(boundary.vessels, build_network(scene, lobule));
   add_wall(scene, boundary.vessels, notes);
   boundary.vessels.material = {scene.vessels.adhesion, scene.vessels.young, scene.vessels.poisson,
-                               false};
+                               contact::kVesselMaterial.mirror};
   if (lobule)
     for (const coupling::MirrorPlane& p : lobule->planes)
       boundary.planes.push_back(
@@ -116,24 +116,18 @@ void add_boundary(const Scene& scene, const coupling::Lobule* lobule, contact::B
                                  scene.capsule.min_radius,
                                  scene.capsule.opens.value_or(contact::Capsule{}.opens),
                                  {}});
-  if (const auto& p = scene.pipette)
-    boundary.pipettes.push_back({kPipetteName,
-                                 p->mouth,
-                                 p->axis.normalized(),
-                                 p->radius,
-                                 p->thickness,
-                                 p->lip,
-                                 p->length,
-                                 contact::Pipette{}.opens,
-                                 {}});
+  if (scene.pipette) {
+    contact::Pipette& tube = boundary.pipettes.emplace_back(*scene.pipette);
+    tube.name = kPipetteName;
+    tube.axis = scene.pipette->axis.normalized();
+  }
   add_static_meshes(scene, boundary);
 }
 
 coupling::VesselTree build_tree(const Scene& scene, const geometry::Network& rest) {
   const VesselBlock& v = scene.vessels;
   if (!v.flexible || rest.segment.empty()) return {};
-  coupling::VesselTree tree = coupling::make_tree(
-      rest, {v.young, v.poisson, v.wall_thickness, v.pressure, v.friction}, v.anchors);
+  coupling::VesselTree tree = coupling::make_tree(rest, v, v.anchors);
   check(v.anchors != coupling::VesselAnchors::kEnds || tree.has_ends(),
         "/vessels/anchors is \"ends\", but the network has no end: every node has two segments or "
         "more, so that nothing would hold it. Set vessels.anchors to \"none\", or crop the network "

@@ -83,7 +83,7 @@ void describe_flexible_vessels(Visitor& v, VesselBlock& b) {
           .dimension = kLength,
           .unit = "um",
           .range = kPositive},
-         b.wall_thickness);
+         b.wall);
   v.real({.name = "pressure",
           .meaning = "pressure inside over that outside",
           .dimension = kStress,

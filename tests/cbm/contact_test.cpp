@@ -287,6 +287,7 @@ TEST(Walls, MeetCrowdedSpheresNearerAndStiffer) {
     s.params[0].poisson = 0.47;
     s.params[0].correction = law;
     contact::Plane floor;
+    floor.material = {};
     contact::Capsule shell;
     shell.center = {0, 0, 50};
     shell.radius = 50;
@@ -323,6 +324,7 @@ TEST(Walls, CoupleByTheModulusOfTheFace) {
   s.params[0].poisson = 0.47;
   s.params[0].correction = law;
   s.boundary.planes = {contact::Plane{}};
+  s.boundary.planes[0].material = {};
   s.find();
   ASSERT_EQ(s.obstacle().size(), 1u);
   const double plane_strain = 1 - 0.47 * 0.47;
@@ -341,7 +343,7 @@ TEST(Walls, MovingPlaneAndShrinkingCapsule) {
   contact::Plane p;
   p.speed = 0.1;
   p.travel = 3;
-  p.material.adhesion = 0.01;
+  p.material = {.adhesion = 0.01};
   contact::Capsule shell;
   shell.radius = 60;
   shell.center = {0, 0, -35};

@@ -107,7 +107,7 @@ TEST(Strength, ScalesContactsWithTheBoundary) {
     cell.strength = Ramp::constant(strength);
     Spheres s({cell});
     contact::Plane floor, mirror;
-    floor.material.adhesion = 0.01;
+    floor.material = {.adhesion = 0.01};
     mirror.normal = -Vec3::UnitX();
     mirror.point = {12, 0, 0};
     mirror.material.mirror = true;

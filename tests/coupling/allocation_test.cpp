@@ -46,13 +46,14 @@ World make_row(bool deformable, bool spheres) {
   contact::Plane below;
   below.name = "below";
   below.point = Vec3(0, 0, -11.9);
-  below.material.adhesion = 0.01;
+  below.material = {.adhesion = 0.01};
   w.params.boundary.planes = {below};
   geometry::Network& vessel = w.params.boundary.vessels.network;
   vessel.node = {Vec3(-30, 16, 0), Vec3(150, 16, 0)};
   vessel.segment = {{0, 1}};
   vessel.radius = {{5, 5}};
   w.params.boundary.vessels.segments_of_node = {{0}, {0}};
+  w.params.boundary.vessels.material = {};
   return w;
 }
 

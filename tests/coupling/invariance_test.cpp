@@ -23,6 +23,7 @@ World make_pressed_clump(double solver_tolerance) {
     contact::Plane plane;
     plane.point = Vec3(0, 0, 11.25 + 21.5 * side);
     plane.normal = Vec3(0, 0, -side);
+    plane.material = {};
     w.params.boundary.planes.push_back(plane);
   }
   return w;

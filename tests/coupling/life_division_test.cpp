@@ -123,6 +123,7 @@ TEST(Division, AlongAGivenAxis) {
       n.segment = {{0, 1}, {1, 2}};
       n.radius = {{4.7, 4.7}, {4.7, 4.7}};
       contact::set_network(w.params.boundary.vessels, n);
+      w.params.boundary.vessels.material = {};
       begin_with_mothers(w);
       look(w, 0);
       const auto index = index_cells(w.state);
@@ -225,6 +226,7 @@ TEST(Division, AtAMirrorWallAndOnAVesselStaysOnItsSide) {
   n.segment = {{0, 1}};
   n.radius = {{4.7, 4.7}};
   contact::set_network(w.params.boundary.vessels, n);
+  w.params.boundary.vessels.material = {};
   w.params.boundary.planes[0].point = {0, 0, -0.05};
   // One mother across the wall, one along the vessel.
   w.params.life.type[0].axis = DivisionAxis::kGiven;

@@ -38,6 +38,7 @@ TEST(SphereAtAPipette, MeetsItsFlatEndAsAWall) {
   at_tube.params.boundary.pipettes = {tube(10)};
   contact::Plane plane;
   plane.normal = -Vec3::UnitZ();
+  plane.material = {};
   at_wall.params.boundary.planes = {plane};
   const Vec3 end = place_after(at_tube, 20000);
   EXPECT_NEAR((end - place_after(at_wall, 20000)).norm(), 0, 1e-9);

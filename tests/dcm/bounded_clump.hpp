@@ -15,7 +15,7 @@ inline contact::Boundary make_boundary() {
   contact::Boundary s;
   contact::Plane floor;
   floor.point = {0, 0, -23.9};
-  floor.material.adhesion = 0.02;
+  floor.material = {.adhesion = 0.02};
   contact::Plane mirror;
   mirror.point = {-3.3, 0, 0};
   mirror.normal = Vec3::UnitX();
@@ -39,7 +39,7 @@ inline contact::Boundary make_boundary() {
   n.segment = {{0, 1}, {1, 2}, {2, 3}};
   n.radius = {{4, 5}, {5, 4}, {4, 4}};
   contact::set_network(s.vessels, n);
-  s.vessels.material.adhesion = 0.01;
+  s.vessels.material = {.adhesion = 0.01};
   geometry::Surface block;
   block.node = {{-60, 20.6, -60}, {90, 20.6, -60}, {90, 20.6, 90}, {-60, 20.6, 90},
                 {-60, 40, -60},   {90, 40, -60},   {90, 40, 90},   {-60, 40, 90}};

@@ -26,6 +26,7 @@ TEST(ObstacleContacts, AVesselTipInTheMiddleOfAFaceIsPushedOut) {
     n.segment = {{0, 1}};
     n.radius = {{radius, radius}};
     contact::set_network(c.boundary.vessels, n);
+    c.boundary.vessels.material = {};
     c.find_afresh();
     for (const Vec3& x : c.work.body[0].node)
       EXPECT_GT(contact::gap_to_segment(n, 0, x).gap, 1) << "the nodes must not see the tip";

@@ -107,6 +107,39 @@ auto fields(const coupling::Numerics& p) {
                     integrator, extrapolate);
 }
 
+auto fields(const contact::Material& m) {
+  const auto& [adhesion, young, poisson, mirror] = m;
+  return std::tuple(adhesion, young, poisson, mirror);
+}
+
+auto fields(const contact::Plane& p) {
+  const auto& [name, point, normal, speed, travel, material, opens] = p;
+  return std::tuple(point, normal, speed, travel, fields(material), opens);
+}
+
+auto fields(const contact::Capsule& c) {
+  const auto& [name, center, radius, speed, min_radius, opens, material] = c;
+  return std::tuple(center, radius, speed, min_radius, opens, fields(material));
+}
+
+auto fields(const contact::Pipette& p) {
+  const auto& [name, mouth, axis, radius, thickness, lip, length, opens, material] = p;
+  return std::tuple(mouth, axis, radius, thickness, lip, length, opens, fields(material));
+}
+
+auto fields(const coupling::TubeMaterial& m) {
+  const auto& [young, poisson, wall, pressure, friction] = m;
+  return std::tuple(young, poisson, wall, pressure, friction);
+}
+
+/// @param set  PATH=VALUE each
+contact::Boundary boundary_of(const std::vector<std::string>& set) {
+  contact::Boundary boundary;
+  Notes notes;
+  add_boundary(parse_scene(kMinimal, "scene.json", ".", set), nullptr, boundary, notes);
+  return boundary;
+}
+
 TEST(Defaults, OfTheLibraryAreThoseOfScenes) {
   const coupling::Params scene = params_of(), library;
   const auto& [dcm, cbm, dcm_contact, cbm_contact, interface, start_up, motility, life, sleep, zoom,
@@ -144,6 +177,45 @@ TEST(Defaults, OfBlocksThatMayBeAbsentAreThoseOfTheLibrary) {
   ASSERT_EQ(temperature.course.entry.size(), 1u);
   EXPECT_EQ(temperature.reference, coupling::Temperature{}.reference);
   EXPECT_EQ(temperature.activation, coupling::Temperature{}.activation);
+}
+
+TEST(Defaults, OfObstaclesAreThoseOfTheLibrary) {
+  const contact::Boundary boundary = boundary_of(
+      {"walls=[{}]", "capsule={\"radius\": \"40 um\"}", "pipette={\"radius\": \"5 um\"}"});
+  ASSERT_EQ(boundary.planes.size(), 1u);
+  EXPECT_EQ(fields(boundary.planes[0]), fields(contact::Plane{}));
+  EXPECT_TRUE(boundary.planes[0].material.mirror);
+  contact::Capsule capsule;
+  capsule.radius = 40;
+  ASSERT_EQ(boundary.capsules.size(), 1u);
+  EXPECT_EQ(fields(boundary.capsules[0]), fields(capsule));
+  contact::Pipette pipette;
+  pipette.radius = 5;
+  ASSERT_EQ(boundary.pipettes.size(), 1u);
+  EXPECT_EQ(fields(boundary.pipettes[0]), fields(pipette));
+  EXPECT_EQ(fields(boundary.vessels.material), fields(contact::Vessels{}.material));
+}
+
+// But for the mirror: a wall with a surface of its own has an obstacle's plain material.
+TEST(Defaults, OfAWallThatIsNoMirrorAreThoseOfAMaterial) {
+  const contact::Boundary boundary = boundary_of({"walls=[{\"mirror\": false}]"});
+  EXPECT_EQ(fields(boundary.planes.at(0).material), fields(contact::Material{}));
+}
+
+TEST(Defaults, OfVesselsAreThoseOfTheLibrary) {
+  Scene scene = parse_scene(kMinimal, "scene.json");
+  EXPECT_EQ(scene.vessels.adhesion, contact::Vessels{}.material.adhesion);
+  scene.vessels.flexible = true;
+  geometry::Network network;
+  network.node = {Vec3::Zero(), Vec3(20, 0, 0)};
+  network.segment = {{0, 1}};
+  network.radius = {{4, 4}};
+  EXPECT_EQ(fields(build_tree(scene, network).material), fields(coupling::TubeMaterial{}));
+  // Table 1 of the paper, in kPa; a default changed in passing must not go unseen.
+  EXPECT_EQ(fields(coupling::TubeMaterial{}), std::tuple(0.6, 0.4, 1.0, 0.0, 0.1));
+  const contact::Pipette pipette;
+  EXPECT_EQ(std::tuple(pipette.thickness, pipette.lip, pipette.length),
+            std::tuple(3.0, 1.0, 100.0));
 }
 
 TEST(Defaults, OfALobuleAreThoseOfTheGenerator) {

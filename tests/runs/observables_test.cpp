@@ -124,6 +124,7 @@ TEST(Observables, AreWhatTheExperimentsMeasure) {
     plane.name = "left wall";
     plane.point = Vec3(48.5, 0, 0);
     plane.normal = Vec3::UnitX();
+    plane.material = {};
     w.world.params.boundary.planes = {plane};
     contact::Capsule capsule;
     capsule.name = "capsule";
@@ -333,6 +334,7 @@ TEST(Lesion, DensityIsOfTheRoomBetweenVessels) {
   n.segment = {{0, 1}};
   n.radius = {{15, 15}};
   contact::set_network(world.params.boundary.vessels, n);
+  world.params.boundary.vessels.material = {};
   Watched with(lobule_scene(), world);
   with.look();
   const double free = 16e9 / with["density_per_mm3"];

@@ -36,6 +36,7 @@ contact::Pipette hole(double start, double length) {
   p.axis = Vec3::UnitX();
   p.radius = 20;
   p.thickness = 4;
+  p.lip = 0;
   p.length = length;
   return p;
 }
@@ -46,6 +47,7 @@ TEST(Plates, MeasureGapForceAndArea) {
   low.point = Vec3(0, 0, -11.5);
   high.point = Vec3(0, 0, 11.5);
   high.normal = -Vec3::UnitZ();
+  low.material = high.material = {};
   w.world.params.boundary.planes = {low, high};
   Measures m = w.look(Experiment::kPlates);
   EXPECT_DOUBLE_EQ(m["gap_um"][0], 23);
