@@ -8,10 +8,9 @@
 namespace acinus::runs {
 namespace {
 
-/// All devices in the order in which they act. Forces are rounded in it: another order is another
-/// result in the last digits.
-constexpr std::array kDevices{&kTemperatureBlock, &kContractionBlock, &kStretcherBlock,
-                              &kPipetteBlock, &kPullsBlock};
+#define ACINUS_BLOCK(name) &k##name##Block,
+constexpr std::array kDevices{ACINUS_DEVICES(ACINUS_BLOCK)};
+#undef ACINUS_BLOCK
 
 }  // namespace
 

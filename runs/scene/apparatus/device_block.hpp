@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "coupling/world/world.hpp"
+#include "runs/scene/apparatus/device_list.hpp"
 #include "runs/scene/fault_report.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/visitor.hpp"
@@ -17,11 +18,8 @@ struct DeviceBlock {
   void (*add)(const Scene&, coupling::Params&) = nullptr;  ///< if the scene has it; after the types
 };
 
-// One for each source beside this header.
-extern const DeviceBlock kContractionBlock;
-extern const DeviceBlock kPipetteBlock;
-extern const DeviceBlock kPullsBlock;
-extern const DeviceBlock kStretcherBlock;
-extern const DeviceBlock kTemperatureBlock;
+#define ACINUS_BLOCK(name) extern const DeviceBlock k##name##Block;
+ACINUS_DEVICES(ACINUS_BLOCK)
+#undef ACINUS_BLOCK
 
 }  // namespace acinus::runs
