@@ -1,4 +1,4 @@
-"""Fails on an include that breaks the floor table, and on files that outgrew their limits.
+"""Fails on an include or a definition that breaks the floor table, and on files that outgrew their limits.
 
 usage: layers_test.py ROOT
 
@@ -37,6 +37,7 @@ MODELS = ("dcm", "cbm", "coupling")
 TYPE = re.compile(r"^\s*(?:struct|class|enum class)\s+(?:alignas\(\w+\)\s+)?(\w+)\b(?:\s+final)?\s*(?::[^:].*)?(?:\{.*)?$")
 DECLARED = re.compile(r"^\s*(?:struct|class|enum class)\s+(\w+)\s*;")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+FUNCTION = re.compile(r"^(?!(?:using|namespace|struct|class|enum|typedef|inline|static|constexpr|return)\b)[A-Za-z_][\w:<>,&*\s]*[\s&*](\w+)\(")
 SKIPPED = re.compile(r"^(out|\.git|__pycache__|node_modules|.*\.run)$")
 BUILD = re.compile(r"^build")  # at the top only: rooms may be named so
 
@@ -156,6 +157,44 @@ def list_types(root, path):
                 yield number, found.group(1)
 
 
+def list_functions(root, path):
+    """(line, name) of the functions that a header declares, or that a source defines for others."""
+    hidden = False
+    with open(os.path.join(root, path), encoding="utf-8", errors="replace") as file:
+        for number, line in enumerate(file, 1):
+            line = line.rstrip()
+            if line == "namespace {" or line == "}  // namespace":
+                hidden = line == "namespace {"
+            found = FUNCTION.match(line)
+            if found and not hidden and (path.endswith(".hpp") or not line.endswith(";")):
+                yield number, found.group(1)
+
+
+def find_climbing_calls(root, includes):
+    """Functions that a header declares and that only units above it define: calls that climb when linked."""
+    definers = {}
+    for path in includes:
+        if path.endswith(".cpp"):
+            for _, name in list_functions(root, path):
+                definers.setdefault(name, set()).add(path)
+    for path in sorted(includes):
+        if not path.endswith(".hpp"):
+            continue
+        for line, name in list_functions(root, path):
+            known = {source for source in definers.get(name, ()) if path in includes[source] | includes.get(unit_of(source) + ".hpp", set())}
+            if known and all(stands_above(source, path) for source in known):
+                yield f"{path}:{line}: {name} is defined above, in {', '.join(sorted(known))}"
+
+
+def stands_above(path, other):
+    """True if a file stands on a higher floor than another, or in a higher room of the same one."""
+    folder, below = path.split("/")[0], other.split("/")[0]
+    if folder != below:
+        return FLOORS[folder] > FLOORS[below]
+    rooms = ROOMS.get(folder, ())
+    return room_of(path) in rooms and room_of(other) in rooms and rooms.index(room_of(path)) > rooms.index(room_of(other))
+
+
 def find_namesakes(types):
     """Types that have the name of one before. types: (path, line, name) in the order of paths."""
     first, models = {}, {}
@@ -213,6 +252,7 @@ def check_tree(root):
         first = ring[0] + (".hpp" if ring[0] + ".hpp" in includes else ".cpp")
         findings.append(f"{first}:1: units need each other: {', '.join(ring)}")
     findings += find_namesakes(types)
+    findings += find_climbing_calls(root, includes)
     return findings, n_source
 
 
@@ -235,6 +275,8 @@ def test_rules():
         "solve/forward_b.hpp": '#include "solve/forward_a.hpp"\nstruct Wide {\n};\n',
         "build/a.cpp": '#include "../runs/a.hpp"\n',
         "runs/assemble/a.hpp": '#include "runs/scene/a.hpp"\nstruct A;\nenum class B { kA };\n',
+        "runs/session/it.cpp": '#include "runs/scene/it.hpp"\nnamespace {\nvoid own() {\n}\n}  // namespace\nvoid check_it(int x) {\n}\n',
+        "runs/scene/it.cpp": '#include "runs/scene/it.hpp"\nbool own() {\n}\n',
         "dcm/state.hpp": "struct State {\n};\n",
         "cbm/state.hpp": "struct State {  // of spheres\n};\nclass Model : public Base {\n",
         "core/long.cpp": "\n" * MAX_LINES,
@@ -263,6 +305,7 @@ def test_rules():
         "runs/cellar/a.cpp": ('#include "runs/scene/a.hpp"\n', 1),
         "core/ring_a.hpp": ('#include "core/ring_b.hpp"\n', 1),  # by way of a source
         "solve/forward_a.hpp": ("struct Wide;\n", 1),  # by way of a declaration
+        "runs/scene/it.hpp": ("bool own();\nvoid check_it(\n    int x);\n", 2),  # by way of the linker
         "runs/d.cpp": ('#include "bench/a.hpp"\n', 1),
         "runs/study/e.cpp": ("struct A {};\nenum class B : char { kA };\n", 2),
         "dcm/store.hpp": ("\nclass State final {\n", 2),
