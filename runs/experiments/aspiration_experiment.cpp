@@ -33,9 +33,7 @@ std::vector<Observable> aspiration_columns() {
           {"aspirated_length_um", "um", "how far the cell reaches beyond the pipette's mouth"}};
 }
 
-void sample_aspiration(const ObservedFrame& f, ObservedRun& observed) {
-  Measures& m = observed.measures;
-  const coupling::Suction& s = f.world.params.apparatus.get<coupling::Suction>();
+void sample_aspiration(const coupling::Suction& s, const ObservedFrame& f, Measures& m) {
   const std::vector<Vec3> node = first_cell(f.world);
   double length = node.empty() ? kNotMeasured : 0;
   for (const Vec3& x : node) {
@@ -44,6 +42,13 @@ void sample_aspiration(const ObservedFrame& f, ObservedRun& observed) {
   }
   m["suction_Pa"].push_back(1e3 * s.load_at(f.snapshot.time).pressure);
   m["aspirated_length_um"].push_back(length);
+}
+
+Sampler make_aspiration_sampler(const coupling::World& world) {
+  const auto& suction = world.params.apparatus.get<coupling::Suction>();
+  return [&suction](const ObservedFrame& f, ObservedRun& observed) {
+    sample_aspiration(suction, f, observed.measures);
+  };
 }
 
 /// Critical pressure, beside that of a surface with the tension of the cell's type.
@@ -87,7 +92,7 @@ std::optional<double> critical_suction(const PipetteBlock& p, const Measures& m)
 const ExperimentRow aspiration_experiment{.meaning = "aspiration of a cell into a micropipette",
                                           .check = check_aspiration,
                                           .columns = aspiration_columns,
-                                          .sample = sample_aspiration,
+                                          .make_sampler = make_aspiration_sampler,
                                           .add_figures = add_aspiration_figures};
 
 }  // namespace acinus::runs

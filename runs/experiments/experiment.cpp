@@ -18,7 +18,10 @@ const ExperimentRow& experiment_row(Experiment experiment) {
 void sample_experiment(const ObservedFrame& frame, ObservedRun& observed) {
   observed.measures["time_s"].push_back(frame.snapshot.time);
   observed.measures["cells"].push_back(static_cast<double>(frame.snapshot.cells.size()));
-  if (const auto sample = experiment_row(frame.scene.experiment).sample) sample(frame, observed);
+  const ExperimentRow& row = experiment_row(frame.scene.experiment);
+  if (!observed.sampler)
+    observed.sampler = row.make_sampler ? row.make_sampler(frame.world) : Sampler(row.sample);
+  if (observed.sampler) observed.sampler(frame, observed);
 }
 
 }  // namespace acinus::runs

@@ -29,6 +29,9 @@ struct ExperimentRow {
   /// Adds one number to each of its series, the same series at every frame. Series without a column
   /// are in summary.json only.
   void (*sample)(const ObservedFrame& frame, ObservedRun& observed) = nullptr;
+  /// In place of `sample`, for experiments with devices: finds them once, at the first frame. What
+  /// it returns refers to devices of the world.
+  Sampler (*make_sampler)(const coupling::World& world) = nullptr;
   /// Counts divisions while the daughters are at their birth places.
   void (*count_births)(const Scene& scene, const coupling::World& world,
                        const coupling::LifeReport& report, ObservedRun& observed) = nullptr;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,6 +24,12 @@ struct CellTrack {
   bool leader = false;
 };
 
+struct ObservedFrame;
+struct ObservedRun;
+
+/// Adds one number to each series of an experiment.
+using Sampler = std::function<void(const ObservedFrame& frame, ObservedRun& observed)>;
+
 /// Series so far, and the values that later frames are compared with.
 struct ObservedRun {
   Measures measures;
@@ -32,6 +39,7 @@ struct ObservedRun {
   std::map<std::int64_t, CellTrack> track;   ///< lineage -> the cell then
   std::array<double, kLayers + 1> births{};  ///< divisions so far by layer; the last: deeper
   // Made when first needed, from constants of the run:
+  Sampler sampler;  ///< refers to devices of the world
   std::optional<LobuleDomain> lobule;
   std::optional<LesionGrid> grid;
   std::optional<FloodLattice> lattice;

@@ -58,9 +58,8 @@ std::vector<Observable> pull_off_columns() {
           {"tension_contact_min_mN_m", "mN/m", "least tension in contact; 0 without contact"}};
 }
 
-void sample_pull_off(const ObservedFrame& f, ObservedRun& observed) {
-  Measures& m = observed.measures;
-  const std::vector<coupling::Pull>& pulls = f.world.params.apparatus.get<coupling::Pulls>().pull;
+void sample_pull_off(const std::vector<coupling::Pull>& pulls, const ObservedFrame& f,
+                     Measures& m) {
   const auto& cells = f.snapshot.cells;
   double force = kNotMeasured, distance = kNotMeasured, area = kNotMeasured;
   coupling::ContactTensions t;
@@ -80,6 +79,13 @@ void sample_pull_off(const ObservedFrame& f, ObservedRun& observed) {
   m["tension_outside_mN_m"].push_back(t.outside);
   m["tension_contact_mN_m"].push_back(t.contact);
   m["tension_contact_min_mN_m"].push_back(t.least);
+}
+
+Sampler make_pull_off_sampler(const coupling::World& world) {
+  const auto& pulls = world.params.apparatus.get<coupling::Pulls>().pull;
+  return [&pulls](const ObservedFrame& f, ObservedRun& observed) {
+    sample_pull_off(pulls, f, observed.measures);
+  };
 }
 
 std::string why_apart(const Measures& m) {
@@ -127,7 +133,7 @@ std::optional<double> pull_off_force(const Measures& m) {
 const ExperimentRow pull_off_experiment{.meaning = "force that parts two adhering cells",
                                         .check = check_pull_off,
                                         .columns = pull_off_columns,
-                                        .sample = sample_pull_off,
+                                        .make_sampler = make_pull_off_sampler,
                                         .why_over = why_apart,
                                         .add_figures = add_pull_off_figures};
 

@@ -35,17 +35,26 @@ std::vector<Observable> stretcher_columns() {
           {"cortex_friction_factor", "1", "friction of the cortex over that of the cell type"}};
 }
 
-void sample_stretcher(const ObservedFrame& frame, ObservedRun& observed) {
-  const coupling::Apparatus& apparatus = frame.world.params.apparatus;
-  Measures& m = observed.measures;
+void sample_stretcher(const coupling::Stretcher& stretcher,
+                      const coupling::Temperature& temperature, const ObservedFrame& frame,
+                      Measures& m) {
   const double t = frame.snapshot.time;
-  const coupling::StretchLoad load = apparatus.get<coupling::Stretcher>().load_at(t);
+  const coupling::StretchLoad load = stretcher.load_at(t);
   const std::vector<Vec3> node = first_cell(frame.world);
   const bool there = !node.empty();
   add_axis("long_axis", there ? extent(node, load.axis) : kNotMeasured, m);
   add_axis("short_axis", there ? extent_across(node, load.axis) : kNotMeasured, m);
   m["stress_Pa"].push_back(kPa * load.stress);
-  m["cortex_friction_factor"].push_back(apparatus.get<coupling::Temperature>().friction_factor(t));
+  m["cortex_friction_factor"].push_back(temperature.friction_factor(t));
+}
+
+Sampler make_stretcher_sampler(const coupling::World& world) {
+  const coupling::Apparatus& apparatus = world.params.apparatus;
+  const auto& stretcher = apparatus.get<coupling::Stretcher>();
+  const auto& temperature = apparatus.get<coupling::Temperature>();
+  return [&stretcher, &temperature](const ObservedFrame& frame, ObservedRun& observed) {
+    sample_stretcher(stretcher, temperature, frame, observed.measures);
+  };
 }
 
 }  // namespace
@@ -54,6 +63,6 @@ const ExperimentRow optical_stretcher_experiment{
     .meaning = "strain of a cell in an optical stretcher",
     .check = check_stretcher_block,
     .columns = stretcher_columns,
-    .sample = sample_stretcher};
+    .make_sampler = make_stretcher_sampler};
 
 }  // namespace acinus::runs
