@@ -18,6 +18,7 @@
 #include "runs/experiments/observed_run.hpp"
 #include "runs/session/make_frame.hpp"
 #include "runs/session/run_options.hpp"
+#include "runs/session/run_outcome.hpp"
 #include "runs/session/soundness.hpp"
 #include "runs/session/totals.hpp"
 
