@@ -11,7 +11,7 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr double kRoundOff = 1e-13;  // a few operations, relative
+constexpr double kCycleRoundOff = 1e-13;  // a few operations, relative
 
 TEST(CellCycle, DoublesTheVolumeInTheCycleTimeAtAConstantRate) {
   Cycle c;
@@ -21,11 +21,11 @@ TEST(CellCycle, DoublesTheVolumeInTheCycleTimeAtAConstantRate) {
   // 4/3 pi (12 um)^3 / 24 h = 8.37758e-20 m^3/s, Eq. (18)
   for (double time : {100.0, 3700.0, 50000.0})
     EXPECT_NEAR((r.at(time + 3600) - r.at(time)) / 3600, 8.37758e-2, 1e-7);
-  EXPECT_NEAR(r.at(100 + kDay), 2 * kBirthVolume, kRoundOff * kBirthVolume);
+  EXPECT_NEAR(r.at(100 + kDay), 2 * kBirthVolume, kCycleRoundOff * kBirthVolume);
   EXPECT_EQ(r.at(100 + 2 * kDay), 2 * c.birth_volume) << "not beyond";
   const Ramp half = growth_from(c, 1.5 * kBirthVolume, 7, 0.5);
   EXPECT_EQ(half.at(7), 1.5 * kBirthVolume);
-  EXPECT_NEAR(half.end, 7 + kDay, kRoundOff * kDay) << "half the way at half the speed";
+  EXPECT_NEAR(half.end, 7 + kDay, kCycleRoundOff * kDay) << "half the way at half the speed";
   const Ramp none = growth_from(c, 1.5 * kBirthVolume, 7, 0);
   EXPECT_EQ(none.at(10 * kDay), 1.5 * kBirthVolume);
   EXPECT_EQ(growth_from(c, 2 * c.birth_volume, 7, 1).at(kDay), 2 * c.birth_volume);
@@ -37,11 +37,11 @@ TEST(CellCycle, FactorHasTheLimitsOfAHillFunction) {
   EXPECT_EQ(growth_factor(pressure, {0}), 1);
   EXPECT_EQ(growth_factor(pressure, {-5}), 1) << "pulled, not pressed";
   EXPECT_EQ(growth_factor(pressure, {0.2}), 0.5);
-  EXPECT_NEAR(growth_factor(pressure, {0.4}), 1.0 / 17, kRoundOff);
+  EXPECT_NEAR(growth_factor(pressure, {0.4}), 1.0 / 17, kCycleRoundOff);
   EXPECT_LT(growth_factor(pressure, {2}), 1.01e-4);
   const Inhibition volume{InhibitedBy::kVolume, 0.8, 4};
   EXPECT_EQ(growth_factor(volume, {5, 0.8}), 0.5);
-  EXPECT_NEAR(growth_factor(volume, {5, 1.6}), 16.0 / 17, kRoundOff);
+  EXPECT_NEAR(growth_factor(volume, {5, 1.6}), 16.0 / 17, kCycleRoundOff);
   EXPECT_LT(growth_factor(volume, {5, 0.08}), 1.01e-4);
   EXPECT_GT(growth_factor(volume, {5, 8}), 1 - 1.01e-4);
   EXPECT_EQ(growth_factor({InhibitedBy::kPressure, 0.2, 1}, {0.4}), 1.0 / (1 + 0.4 / 0.2));
