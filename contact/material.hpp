@@ -13,7 +13,7 @@ struct Material {
   bool mirror = false;  ///< stands for an equal cell on the other side: no adhesion, no friction
 };
 
-/// Vessels: sinusoids.  [VanLiedekerke2020, Table 1]
+/// Material of vessels, that of sinusoids.  [VanLiedekerke2020, Table 1]
 inline constexpr Material kVesselMaterial{.young = 0.6, .poisson = 0.4};
 
 }  // namespace acinus::contact
