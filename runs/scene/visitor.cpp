@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/units/units.hpp"
 #include "runs/scene/choices.hpp"
 
 namespace acinus::runs {
