@@ -6,8 +6,8 @@
 #include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
 #include "coupling/world/cell.hpp"
+#include "dcm/shape/available_volume.hpp"
 #include "dcm/shape/give_shape.hpp"
-#include "dcm/shape/room.hpp"
 #include "geometry/box_pairs.hpp"
 #include "geometry/measures.hpp"
 
@@ -33,7 +33,7 @@ std::vector<StartBall> list_balls(const State& s) {
 /// Ball of a lane, enlarged to the nodes: they lie slightly outside the nominal ball, so that the
 /// mesh has its volume.
 std::vector<Vec3> cut_ball(const State& s, const StartBall& ball,
-                           const std::vector<dcm::RoomFace>& face) {
+                           const std::vector<dcm::VolumeFace>& face) {
   const geometry::Topology& t = *s.dcm.group[ball.at / kLanes].topology;
   std::vector<Vec3> direction;
   double radius = 0;
@@ -43,9 +43,9 @@ std::vector<Vec3> cut_ball(const State& s, const StartBall& ball,
     radius = std::max(radius, d.norm());
     d.normalize();
   }
-  const dcm::Room room(ball.center,
-                       [&](const Vec3& d) { return dcm::reach_to_faces(d, radius, face); });
-  return room.fill(t, direction, radius);
+  const dcm::AvailableVolume available(
+      ball.center, [&](const Vec3& d) { return dcm::reach_to_faces(d, radius, face); });
+  return available.fill(t, direction, radius);
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ CutCells cut_overlapping(World& world) {
   for (const StartBall& b : balls) box.push_back(sphere_box(b.center, b.radius));
   const auto pairs = contact::find_pairs(box, 0);
 
-  std::vector<std::vector<dcm::RoomFace>> face(balls.size());
+  std::vector<std::vector<dcm::VolumeFace>> face(balls.size());
   std::vector<std::uint8_t> deep(balls.size(), 0);
   for (const auto& [i, j] : pairs) {
     const StartBall &a = balls[i], &b = balls[j];

@@ -23,7 +23,7 @@ struct Facing {
 struct VolumeBounds {
   Vec3 center = Vec3::Zero();
   double farthest = 0, time = 0;
-  std::vector<dcm::RoomFace> face;
+  std::vector<dcm::VolumeFace> face;
   std::vector<Facing> facing;
   contact::Boundary boundary;  ///< walls only
   const geometry::Network* network = nullptr;
@@ -136,8 +136,8 @@ double compute_reach(const VolumeBounds& around, const Vec3& direction) {
 
 }  // namespace
 
-dcm::Room make_available_volume(const World& world, std::size_t sphere,
-                                std::span<const double> radius) {
+dcm::AvailableVolume make_available_volume(const World& world, std::size_t sphere,
+                                           std::span<const double> radius) {
   const State& s = world.state;
   VolumeBounds around;
   around.center = cbm::center_of(s.cbm, sphere);

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "coupling/world/world.hpp"
-#include "dcm/shape/room.hpp"
+#include "dcm/shape/available_volume.hpp"
 
 namespace acinus::coupling {
 
@@ -15,7 +15,7 @@ inline constexpr double kRayReach = 1.6;
 /// planes of neighbouring spheres, the surfaces of deformable neighbours, walls, vessels and static
 /// meshes.
 /// @param radius  [cbm cells] um
-dcm::Room make_available_volume(const World& world, std::size_t sphere,
-                                std::span<const double> radius);
+dcm::AvailableVolume make_available_volume(const World& world, std::size_t sphere,
+                                           std::span<const double> radius);
 
 }  // namespace acinus::coupling

@@ -47,7 +47,7 @@ NewShell shape_sphere(const World& world, std::size_t sphere, double pressure,
   const double bulk = world.params.dcm[static_cast<std::size_t>(type)].bulk_modulus;
   const double rest = s.cbm.volume[sphere].at(s.clock.time);
   const double wanted = rest * std::exp(-std::max(pressure, 0.0) / bulk);
-  const dcm::Room available = make_available_volume(world, sphere, radius);
+  const dcm::AvailableVolume available = make_available_volume(world, sphere, radius);
   const std::vector<Vec3> direction =
       directions(t, random_orientation(world.params.zoom.seed, s.cbm.lineage[sphere]));
   NewShell shell;
@@ -63,8 +63,9 @@ NewShell shape_sphere(const World& world, std::size_t sphere, double pressure,
   const double quality = geometry::compute_quality(shell.node, t.triangle);
   shell.ok = found >= kLeastVolume * wanted && quality >= kLeastShapeQuality;
   if (!shell.ok)
-    shell.why = fmt::format("its room holds {:.2f} of its volume, with triangles down to {:.2g}",
-                            found / wanted, quality);
+    shell.why = fmt::format(
+        "the available volume holds {:.2f} of the cell's, with triangles down to {:.2g}",
+        found / wanted, quality);
   else
     dcm::match_volume(t, wanted, std::vector<double>(shell.node.size(), 1), shell.node);
   return shell;

@@ -1,4 +1,4 @@
-#include "dcm/shape/room.hpp"
+#include "dcm/shape/available_volume.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace acinus::dcm {
 namespace {
 
-constexpr double kRoomRadius = 12;  // um
+constexpr double kBallRadius = 12;  // um
 const geometry::Topology& fine_icosphere = geometry::shared_icosphere(642);
 
 std::vector<Vec3> directions(const Mat3& rotation) {
@@ -26,71 +26,71 @@ double ball_below(double r, double h) {
   return kPi * (2 * r * r * r / 3 + h * r * r - h * h * h / 3);
 }
 
-TEST(Room, TheFaceBetweenTwoBallsIsTheirCircle) {
+TEST(AvailableVolume, TheFaceBetweenTwoBallsIsTheirCircle) {
   const double a = 12, b = 9, distance = 16;
   const double share = share_of_distance(a, b, distance);
   // Both balls have the same circle in that plane.
   EXPECT_NEAR(a * a - std::pow(share * distance, 2), b * b - std::pow((1 - share) * distance, 2),
               1e-12 * a * a);
   EXPECT_NEAR(share + share_of_distance(b, a, distance), 1, 1e-15);
-  // A ball that holds the other's centre leaves it room.
+  // A ball that holds the other's centre leaves it a quarter of the distance.
   EXPECT_EQ(share_of_distance(20, 6, 10), 0.75);
   EXPECT_EQ(share_of_distance(6, 20, 10), 0.25);
 }
 
-Room make_room(const Vec3& center, std::span<const RoomFace> face) {
-  return {center, [face](const Vec3& d) { return reach_to_faces(d, 2 * kRoomRadius, face); }};
+AvailableVolume make_volume(const Vec3& center, std::span<const VolumeFace> face) {
+  return {center, [face](const Vec3& d) { return reach_to_faces(d, 2 * kBallRadius, face); }};
 }
 
-TEST(Room, WithoutFacesIsTheBall) {
-  const Room room = make_room(Vec3::Zero(), {});
-  const auto node = room.fill(fine_icosphere, directions(Mat3::Identity()), kRoomRadius);
+TEST(AvailableVolume, WithoutFacesIsTheBall) {
+  const AvailableVolume available = make_volume(Vec3::Zero(), {});
+  const auto node = available.fill(fine_icosphere, directions(Mat3::Identity()), kBallRadius);
   for (const Vec3& x : node)
-    EXPECT_NEAR(x.norm(), kRoomRadius, 1e-2);  // spread over faces of 642 nodes
+    EXPECT_NEAR(x.norm(), kBallRadius, 1e-2);  // spread over faces of 642 nodes
 }
 
-TEST(Room, IsAsLargeAsAsked) {
-  const RoomFace face{Vec3(0, 0, 1), 6};
-  const Room room = make_room(Vec3(1, 2, 3), std::span(&face, 1));
-  const double wanted = 4.0 / 3 * kPi * std::pow(kRoomRadius, 3);
-  const double radius = room.find_radius(wanted, 2 * kRoomRadius);
-  EXPECT_GT(radius, kRoomRadius);
-  EXPECT_NEAR(room.volume(radius) / wanted, 1, 1e-9);
-  EXPECT_EQ(room.find_radius(10 * wanted, 1.5 * kRoomRadius), 1.5 * kRoomRadius);
+TEST(AvailableVolume, IsAsLargeAsAsked) {
+  const VolumeFace face{Vec3(0, 0, 1), 6};
+  const AvailableVolume available = make_volume(Vec3(1, 2, 3), std::span(&face, 1));
+  const double wanted = 4.0 / 3 * kPi * std::pow(kBallRadius, 3);
+  const double radius = available.find_radius(wanted, 2 * kBallRadius);
+  EXPECT_GT(radius, kBallRadius);
+  EXPECT_NEAR(available.volume(radius) / wanted, 1, 1e-9);
+  EXPECT_EQ(available.find_radius(10 * wanted, 1.5 * kBallRadius), 1.5 * kBallRadius);
 }
 
-TEST(Room, ABallCutByAPlaneHasItsVolumeAndStaysBelow) {
+TEST(AvailableVolume, ABallCutByAPlaneHasItsVolumeAndStaysBelow) {
   auto random = reference::stream(5);
   for (const double height : {10.0, 6.0, 3.0}) {
     const Mat3 turn = reference::random_rotation(random);
-    const RoomFace face{turn * Vec3(0, 0, 1), height};
+    const VolumeFace face{turn * Vec3(0, 0, 1), height};
     const Vec3 center(3, -4, 5);
-    const auto node =
-        make_room(center, std::span(&face, 1)).fill(fine_icosphere, directions(turn), kRoomRadius);
+    const auto node = make_volume(center, std::span(&face, 1))
+                          .fill(fine_icosphere, directions(turn), kBallRadius);
     for (const Vec3& x : node) {
       EXPECT_LE(face.normal.dot(x - center), height + 1e-9);
-      EXPECT_LE((x - center).norm(), kRoomRadius * (1 + 1e-12));
+      EXPECT_LE((x - center).norm(), kBallRadius * (1 + 1e-12));
     }
     // The chords of 642 nodes lose 1 % of a ball.
     const double volume = geometry::compute_volume(node, fine_icosphere.triangle);
-    EXPECT_NEAR(volume / ball_below(kRoomRadius, height), 0.985, 0.015) << height;
+    EXPECT_NEAR(volume / ball_below(kBallRadius, height), 0.985, 0.015) << height;
     EXPECT_TRUE(faces_outward(fine_icosphere, node, center));
   }
 }
 
-TEST(Room, MeshesOfNarrowRoomsAreSound) {
+TEST(AvailableVolume, MeshesOfNarrowOnesAreSound) {
   auto random = reference::stream(7);
   for (int trial = 0; trial < 40; ++trial) {
-    std::vector<RoomFace> face;
+    std::vector<VolumeFace> face;
     const int n = 1 + trial % 14;
     for (int k = 0; k < n; ++k)
       face.push_back(
           {reference::random_vector(random, 1).normalized(),
-           kRoomRadius * (0.15 + 0.8 * std::abs(reference::random_vector(random, 1).x()))});
-    const auto node = make_room(Vec3::Zero(), face)
-                          .fill(fine_icosphere, directions(Mat3::Identity()), kRoomRadius);
+           kBallRadius * (0.15 + 0.8 * std::abs(reference::random_vector(random, 1).x()))});
+    const auto node = make_volume(Vec3::Zero(), face)
+                          .fill(fine_icosphere, directions(Mat3::Identity()), kBallRadius);
     for (const Vec3& x : node)
-      for (const RoomFace& f : face) EXPECT_LE(f.normal.dot(x), f.distance + 1e-9);
+      for (const VolumeFace& f : face) EXPECT_LE(f.normal.dot(x), f.distance + 1e-9);
     EXPECT_TRUE(faces_outward(fine_icosphere, node, Vec3::Zero())) << trial;
     EXPECT_FALSE(geometry::AuditBody(node, fine_icosphere.triangle).self_intersects()) << trial;
     EXPECT_GT(geometry::compute_quality(node, fine_icosphere.triangle), 0.02) << trial;

@@ -1,4 +1,4 @@
-#include "dcm/shape/room.hpp"
+#include "dcm/shape/available_volume.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -34,31 +34,32 @@ double share_of_distance(double radius, double other_radius, double distance) {
   return std::clamp(share, kLeastShare, 1 - kLeastShare);
 }
 
-double reach_to_faces(const Vec3& direction, double farthest, std::span<const RoomFace> face) {
+double reach_to_faces(const Vec3& direction, double farthest, std::span<const VolumeFace> face) {
   double reach = farthest;
-  for (const RoomFace& f : face) {
+  for (const VolumeFace& f : face) {
     const double slope = f.normal.dot(direction);
     if (slope * reach > f.distance) reach = f.distance / slope;
   }
   return reach;
 }
 
-Room::Room(const Vec3& center, Reach reach) : center_(center), reach_(std::move(reach)) {
+AvailableVolume::AvailableVolume(const Vec3& center, Reach reach)
+    : center_(center), reach_(std::move(reach)) {
   for (const Vec3& direction : showing_directions()) shown_.push_back(reach_(direction));
 }
 
-std::vector<Vec3> Room::show(double radius) const {
+std::vector<Vec3> AvailableVolume::show(double radius) const {
   std::vector<Vec3> node;
   for (std::size_t i = 0; i < shown_.size(); ++i)
     node.push_back(center_ + std::min(shown_[i], radius) * showing_directions()[i]);
   return node;
 }
 
-double Room::volume(double radius) const {
+double AvailableVolume::volume(double radius) const {
   return geometry::compute_volume(show(radius), showing_sphere().triangle);
 }
 
-double Room::find_radius(double wanted, double largest) const {
+double AvailableVolume::find_radius(double wanted, double largest) const {
   if (volume(largest) <= wanted) return largest;
   double low = 0, high = largest;
   for (int k = 0; k < kBisections; ++k) {
@@ -68,8 +69,8 @@ double Room::find_radius(double wanted, double largest) const {
   return 0.5 * (low + high);
 }
 
-std::vector<Vec3> Room::fill(const geometry::Topology& t, std::span<const Vec3> direction,
-                             double radius) const {
+std::vector<Vec3> AvailableVolume::fill(const geometry::Topology& t,
+                                        std::span<const Vec3> direction, double radius) const {
   std::vector<Vec3> cast;
   for (const Vec3& d : direction) cast.push_back(center_ + std::min(reach_(d), radius) * d);
   std::vector<Vec3> node = cast;

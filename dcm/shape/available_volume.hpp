@@ -11,7 +11,7 @@
 namespace acinus::dcm {
 
 /// Flat face of an available volume.
-struct RoomFace {
+struct VolumeFace {
   Vec3 normal;          ///< outward, of length 1
   double distance = 0;  ///< um from the centre of the cell, positive
 };
@@ -23,14 +23,14 @@ double share_of_distance(double radius, double other_radius, double distance);
 
 /// Distance from the centre to the nearest face in a direction, um; at most `farthest`.
 /// @param direction  of length 1
-double reach_to_faces(const Vec3& direction, double farthest, std::span<const RoomFace> face);
+double reach_to_faces(const Vec3& direction, double farthest, std::span<const VolumeFace> face);
 
 /// Available volume, star-shaped from its centre.
-class Room {
+class AvailableVolume {
  public:
   /// Distance from the centre to the surface in a direction of length 1, um; positive.
   using Reach = std::function<double(const Vec3& direction)>;
-  Room(const Vec3& center, Reach reach);
+  AvailableVolume(const Vec3& center, Reach reach);
 
   /// Size of the part within a ball, um^3.
   double volume(double radius) const;
@@ -38,7 +38,7 @@ class Room {
   /// Radius of the ball in which the part has this volume, um; `largest` if that is too small.
   double find_radius(double volume, double largest) const;
 
-  /// Nodes of a mesh spread over the surface of the part of the room within a ball, um.
+  /// Nodes of a mesh spread over the surface of the part within a ball, um.
   /// @param direction  [n_node] of length 1, to the nodes of the whole ball
   /// @return           [n_node] um
   std::vector<Vec3> fill(const geometry::Topology& topology, std::span<const Vec3> direction,
