@@ -65,7 +65,7 @@ Json LifeDrawing::draw_cycle() {
                                                     : "vessel";
   if (cycle["axis"] == "given") cycle["direction"] = given;
   // Cells that do not live through a whole cycle divide only if they are old at the start. In a
-  // closed room cells that all double would be crushed: half of the growth is done already.
+  // closed space cells that all double would be crushed: half of the growth is done already.
   const bool anywhere = chance(0.6) || (setting_.confined && !setting_.wide);
   cycle["start"] = anywhere || time > 0.6 * setting_.end ? "random" : "birth";
   return cycle;
@@ -74,7 +74,7 @@ Json LifeDrawing::draw_cycle() {
 Json LifeDrawing::draw_inhibition() {
   const double by = random_.uniform(), threshold = random_.uniform(), power = random_.uniform();
   Json inhibition;
-  const bool tissue = setting_.confined && !setting_.wide;  // that has no room left
+  const bool tissue = setting_.confined && !setting_.wide;  // that fills the available volume
   if (by < 0.5 && !tissue) return inhibition;
   if (by < 0.75) {
     const double low = setting_.wide ? 1 : 50, high = setting_.wide ? 5000 : 500;

@@ -277,7 +277,7 @@ void Drawing::draw_box() {
 
 /// Draws cells placed at random about a branching vessel of a network file.
 void Drawing::draw_fill() {
-  // Darts at 0.15 of their balls' volume find room; more than 0.38 they never do.
+  // Darts at 0.15 of their balls' volume find places; more than 0.38 they never do.
   const double distance =
       2 * radius_ * (wide_ ? random_.uniform(0.75, 1.1) : random_.uniform(1, 1.1));
   const double half =
@@ -332,7 +332,7 @@ void Drawing::draw_lobule() {
 
 void Drawing::add_life() {
   bool confined = false;
-  for (const char* room : {"capsule", "walls", "lobule"}) confined |= scene_.contains(room);
+  for (const char* wall : {"capsule", "walls", "lobule"}) confined |= scene_.contains(wall);
   scene_.merge_patch(Json::parse(
       draw_life({seed_, wide_, end_, count_, radius_, scene_.contains("vessels"), confined})));
   const Json& type = scene_["cell_types"]["cell"];

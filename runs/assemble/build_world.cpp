@@ -69,7 +69,7 @@ coupling::Lobule build_lobule(const Scene& scene, Notes& notes) {
   coupling::Lobule lobule = draw_lobule(scene);
   if (static_cast<int>(lobule.seeds.size()) < b.cells)
     notes.warnings.push_back(
-        fmt::format("room for {} of the {} cells asked for", lobule.seeds.size(), b.cells));
+        fmt::format("space for {} of the {} cells asked for", lobule.seeds.size(), b.cells));
   double cells = 0;
   for (std::size_t k = 0; k < lobule.seeds.size(); ++k)
     cells += sphere_volume(

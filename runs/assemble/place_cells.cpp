@@ -55,14 +55,14 @@ std::vector<Vec3> fill_box(const Scene& scene, const contact::Boundary& boundary
     const bool free =
         std::ranges::all_of(seeds, [&](const Vec3& y) { return (x - y).norm() >= c.min_distance; });
     if (!free) continue;
-    // The next cell's type hangs on its number: large cells are not rarer for the room they need.
+    // The next cell's type hangs on its number: large cells are not rarer for the volume they need.
     const CellType& type = scene.cell_types.at(draw_cell_type(scene, std::ssize(seeds), x));
     if (contact::nearest_gap(boundary, x, 0) < start_radius(scene, largest_start(type))) continue;
     seeds.push_back(x);
     tries = 0;
   }
   check(static_cast<int>(seeds.size()) == c.count,
-        fmt::format("{}: /cells/count: room for only {} of {} cells at least {} um apart between "
+        fmt::format("{}: /cells/count: space for only {} of {} cells at least {} um apart between "
                     "{} and {} um. "
                     "Lower count or min_distance, or enlarge low and high.",
                     scene.file, seeds.size(), c.count, c.min_distance,

@@ -40,7 +40,7 @@ void check_nucleus(const Scene& scene, const std::string& name, const CellType& 
   if (n.size * cell.radius + n.gap > kInnerRadius * cell.radius)
     report.add_relation(
         {pointer + "/size", pointer + "/gap", cell.pointer}, fmt::format("{:g}", n.size),
-        fmt::format("leaves no room: that share of {} = {} and {}/gap = {} beside it must fit into "
+        fmt::format("is too large: that share of {} = {} and {}/gap = {} beside it must fit into "
                     "{:g} of that radius. Make the nucleus smaller or the cell larger",
                     cell.pointer, quoted_length(cell.radius), pointer, quoted_length(n.gap),
                     kInnerRadius));

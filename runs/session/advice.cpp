@@ -24,8 +24,9 @@ std::string advise_if_full(const coupling::World& world, std::span<const std::in
   const bool grows = std::ranges::any_of(world.params.life.type,
                                          [](const coupling::CycleParams& c) { return c.time > 0; });
   text += grows ? "Let fewer cells grow (life.proliferation.cells, inhibition by pressure or "
-                  "density, rules that rest), enlarge the room, or end earlier."
-                : "Start with fewer or smaller cells, enlarge the room, or end its compression "
+                  "density, rules that rest), enlarge the space around the cells, or end earlier."
+                : "Start with fewer or smaller cells, enlarge the space around them, or end its "
+                  "compression "
                   "earlier.";
   return text;
 }

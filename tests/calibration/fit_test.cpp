@@ -1,4 +1,4 @@
-/// The fit finds laws that are known, from clumps of spheres whose force they made.
+/// Tests that the fit finds known laws, from clumps of spheres whose force they made.
 
 #include "calibration/fit_law.hpp"
 
@@ -20,7 +20,7 @@ cbm::Params sphere() {
   return p;
 }
 
-/// A body-centred lattice so large that the neighbours of the middle cell have all of theirs,
+/// Body-centred lattice so large that the neighbours of the middle cell have all of theirs,
 /// shrunk so that neighbours overlap by d.
 ClumpSnapshot lattice(double d) {
   ClumpSnapshot m;
@@ -43,7 +43,7 @@ std::size_t middle_of(const ClumpSnapshot& m) {
   return m.center.size();
 }
 
-/// A compression whose force is that of spheres of this law, and of which the middle cell counts.
+/// Compression whose force is that of spheres of this law, and of which the middle cell counts.
 Compression compression_with(const cbm::StiffnessLaw& law, double young) {
   cbm::Params p = sphere();
   p.young = young;
@@ -117,7 +117,7 @@ TEST(Fit, FindsThePowerWhenAsked) {
 }
 
 TEST(Fit, MakesATableWhereOneTermIsNotEnough) {
-  // Soft until the cells fill their room, then hard: what no power of d follows.
+  // Soft until the cells fill the available volume, then hard: what no power of d follows.
   const cbm::StiffnessLaw wanted{{}, {{0.05, 0}, {0.09, 0.1}, {0.11, 5}, {0.3, 6}}, 0.3};
   const auto found = fit_law(compression_with(wanted, 0.1), sphere(), {});
   ASSERT_EQ(found.size(), 2u);

@@ -90,7 +90,7 @@ TEST(StiffnessLaw, LeavesSingleOverlapsOutWhereAsked) {
   EXPECT_EQ(modulus_toward(law, 0.45, {0.45, 0}, 0.5).value, 0.45);
 }
 
-/// A row of three, 4 um and 2 um in each other, and the middle one 3 um in a mirror.
+/// Row of three, 4 um and 2 um in each other, and the middle one 3 um in a mirror.
 Spheres row(const StiffnessLaw& law) {
   Spheres s({{0, 0, Vec3(-20, 0, 0), 12, 0.45, Vec3::Zero()},
              {1, 0, Vec3(0, 0, 0), 12, 0.45, Vec3::Zero()},
@@ -151,7 +151,7 @@ TEST(Correction, ADeepPairIsHeldApartAndItsStiffnessIsTheSlopeOfItsForce) {
   }
 }
 
-/// The 27 places of a body-centred cubic lattice next to one of them, nearest neighbours with this
+/// 27 places of a body-centred cubic lattice next to one of them, nearest neighbours with this
 /// relative overlap, shaken a little, in a shell that presses on the outermost as much.
 Spheres make_clump(double overlap, std::uint64_t seed) {
   constexpr double kRadius = 12;
@@ -286,7 +286,7 @@ TEST(Correction, StiffensTheCentralCell) {
   EXPECT_GT(stiff.sphere()[0].force, 3 * soft.sphere()[0].force);
 }
 
-/// The same step with the matrix of moduli held fixed.
+/// Matrix of the step with the moduli held fixed.
 Eigen::MatrixXd frozen_matrix(Spheres& s, double h) {
   Eigen::MatrixXd fixed = matrix(s, h);
   const std::vector<double> coupling = s.work.coupling;
@@ -348,8 +348,8 @@ TEST(Correction, StepsOfAnyLengthAreStable) {
 }
 
 TEST(Correction, StepsDoNotOvershootWithATable) {
-  // As calibrated: next to nothing until cells fill their room, then steeper than any power. Such
-  // a clump can buckle, so growth says nothing about the step.
+  // As calibrated: next to nothing until cells fill the available volume, then steeper than any
+  // power. Such a clump can buckle, so growth says nothing about the step.
   const StiffnessLaw table{{},
                            {{0.068, 0},
                             {0.0707, 0.08},

@@ -163,13 +163,13 @@ TEST(Lobule, SeedsKeepTheirDistances) {
   }
 }
 
-TEST(Lobule, StopsAtTheWantedCountAndSaysWhenThereIsNoRoom) {
+TEST(Lobule, StopsAtTheWantedCountAndSaysWhenThereIsNoSpace) {
   LobuleParameters p = pie(48);
   p.cells = 40;
   EXPECT_EQ(make_lobule(p, stream(1)).seeds.size(), 40u);
   p.cells = 5000;
   const Lobule full = make_lobule(p, stream(1));
-  std::printf("H 48, 20 um: room for %zu seeds\n", full.seeds.size());
+  std::printf("H 48, 20 um: space for %zu seeds\n", full.seeds.size());
   EXPECT_EQ(full.wanted_cells, 5000);
   EXPECT_GT(full.seeds.size(),
             93u);  // a draft that gave up earlier reached 93; jamming is a little above
@@ -177,7 +177,7 @@ TEST(Lobule, StopsAtTheWantedCountAndSaysWhenThereIsNoRoom) {
   LobuleParameters tall = pie(72);
   tall.cells = 5000;
   const Lobule tall_full = make_lobule(tall, stream(1));
-  std::printf("H 72, 24 um: room for %zu seeds\n", tall_full.seeds.size());
+  std::printf("H 72, 24 um: space for %zu seeds\n", tall_full.seeds.size());
   EXPECT_GT(tall_full.seeds.size(), 85u);
   EXPECT_LT(tall_full.seeds.size(), 110u);
 }

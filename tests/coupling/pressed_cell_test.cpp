@@ -1,4 +1,4 @@
-/// A deformable cell pressed against spheres and into the room that they leave.
+/// Deformable cell pressed against spheres and into the available volume between them.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// A deformable cell and two spheres, ten times as stiff, in a capsule that shrinks to 16 um.
+/// Deformable cell and two spheres, ten times as stiff, in a capsule that shrinks to 16 um.
 World pressed_cell(bool extrapolate) {
   World w =
       make_test_world({{Vec3(-11.5, 0, 0)}, {Vec3(11.5, 0, 0), false}, {Vec3(0, 20, 0), false}});

@@ -104,11 +104,11 @@ TEST(ZoomSlow, TwoHundredChanges) {
   EXPECT_LE(all.pressure, 1);
   EXPECT_LE(all.force, 0.1);
   EXPECT_LE(all.rejected, 2);
-  EXPECT_LE(all.shift, 0.1 * 12);  // 0.01 R is wanted: rooms are not round (docs/zoom.md)
+  EXPECT_LE(all.shift, 0.1 * 12);  // 0.01 R is wanted: volumes are not round (docs/zoom.md)
 }
 
-/// A cell in packed tissue goes to the other model and back, again and again, beside one left
-/// alone.
+/// Drift of a cell in packed tissue that goes to the other model and back, again and again, beside
+/// one left alone.
 TEST(ZoomSlow, AHundredChangesLeaveNoTrace) {
   World w = make_tissue(Tissue::kPacked, 1);
   w.params.boundary.capsules[0].min_radius = 58;

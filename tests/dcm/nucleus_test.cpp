@@ -20,7 +20,7 @@ using reference::kEps;
 
 constexpr Nucleus kLinked{.link_young = 0.7};
 
-/// A nucleus moved against one side of its cell, which it overlaps by some tenths of a um.
+/// Nucleus moved against one side of its cell, which it overlaps by some tenths of a um.
 NucleatedCells pressed(int n_node = 162) {
   NucleatedCells c = make_deformed_nucleated(with_nucleus({.size = 0.7}), {10, 11}, n_node);
   for (std::size_t l = 0; l < 2; ++l)
@@ -218,7 +218,7 @@ TEST(Nucleus, CellsWithoutOneHaveNoRowsForIt) {
   EXPECT_EQ(make_blocks(s, std::span(&p, 1))[0].pattern->n_point, 42);
 }
 
-// Half a ball of 12 um has room for a ball of 6 um less what a mesh cuts off; a nucleus of half the
+// Half a ball of 12 um holds a ball of 6 um less what a mesh cuts off; a nucleus of half the
 // daughter's radius is 4.8 um.
 TEST(Nucleus, IsPlacedInsideWithItsLinksOutward) {
   const State s = make_state({{0,

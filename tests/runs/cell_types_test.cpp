@@ -1,4 +1,4 @@
-/// Generated cells of more than one type: shares, regions, room.
+/// Generated cells of more than one type: shares, regions, available volume.
 
 #include "runs/assemble/cell_types.hpp"
 
@@ -41,7 +41,7 @@ TEST(CellTypes, AreDrawnByTheirShares) {
   // binomial: 1500 +- sqrt(2000 * 0.75 * 0.25) = 19
   EXPECT_NEAR(n["large"], 1500, 4 * 19);
   for (const PlacedCell& c : cells) EXPECT_EQ(c.radius, c.type == "large" ? 12 : 8);
-  // A lattice has room for the largest type.
+  // A lattice has space for the largest type.
   EXPECT_NEAR((cells[1].center - cells[0].center).norm(), 24, 1e-12);
   // Another place or model does not change who is what.
   const auto box = place_cells(make_scene(R"("source": "box", "grid": [20, 10, 10], )" + types),
@@ -89,7 +89,7 @@ TEST(CellTypes, FillKeepsEachClearOfWallsByItsOwnRadius) {
   }
   EXPECT_GE(lowest[0], 12);
   EXPECT_GE(lowest[1], 8);
-  EXPECT_LT(lowest[1], 12);  // small ones use the room that is theirs
+  EXPECT_LT(lowest[1], 12);  // small ones use the available volume
   // binomial: 75 +- sqrt(150 / 4) = 6
   EXPECT_NEAR(count_types(cells)["large"], 75, 4 * 6);
 }

@@ -36,7 +36,7 @@ TEST(NucleusScene, SaysWhatIsWrong) {
 TEST(NucleusScene, MustFitWithItsGap) {
   EXPECT_CONTAINS(
       nucleus(R"("size": 0.88, "gap": "0.5 um")"),
-      R"(nucleus/size = 0.88: leaves no room: that share of /cell_types/hepatocyte/radius = "12 um" )"
+      R"(nucleus/size = 0.88: is too large: that share of /cell_types/hepatocyte/radius = "12 um" )"
       R"(and /cell_types/hepatocyte/dcm/nucleus/gap = "0.5 um" beside it must fit into 0.9 of that)");
   EXPECT_CONTAINS(
       failure(changed(with_dcm(R"("nucleus": {"size": 0.8})"), R"(["0 um", "0 um", "0 um"])",

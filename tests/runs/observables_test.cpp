@@ -36,7 +36,7 @@ Scene lobule_scene(coupling::LobuleShape shape = coupling::LobuleShape::kHexagon
   return scene;
 }
 
-/// A world and the frames that are measured of it.
+/// World and the frames that are measured of it.
 struct Watched {
   Scene scene;
   coupling::World world;
@@ -230,7 +230,7 @@ TEST(Lesion, OfCellsOnARingIsTheRing) {
   // All cells are inside the initial lesion now: it is less by their volume over the height.
   const double open = kPi * (88 * 88 - 100);
   EXPECT_NEAR(w["lesion_area_open_um2"], open - 16 * 4.0 / 3 * kPi * 1728 / 48, 0.02 * open);
-  EXPECT_GT(w["front_roughness_um"], 5) << "there is room between the cells";
+  EXPECT_GT(w["front_roughness_um"], 5) << "there is space between the cells";
 }
 
 TEST(Lesion, ClosestCellOfEveryLayerCounts) {
@@ -321,7 +321,7 @@ TEST(Lesion, BirthsCountInTheLayerTheyHappenIn) {
   EXPECT_EQ(w["births_layer_beyond"], 0);
 }
 
-TEST(Lesion, DensityIsOfTheRoomBetweenVessels) {
+TEST(Lesion, DensityIsOfTheVolumeOutsideVessels) {
   coupling::World world = coupling::make_test_world(ring(100));
   Watched bare(lobule_scene(), world);
   bare.look();
