@@ -108,9 +108,9 @@ void audit_walls(const AuditFrame& frame, const Bodies& bodies, AuditResult& res
       for (const Vec3& x : cell.node) keep(depth_behind(w, x, 0));
       ++wall;
     }
-    for (std::size_t f = 0; f < frame.statics.size(); ++f, ++wall)
-      if (frame.statics[f].inside) {
-        const geometry::AuditBody &body = bodies.cell[c], &fixed = frame.statics[f].body;
+    for (std::size_t f = 0; f < frame.static_meshes.size(); ++f, ++wall)
+      if (frame.static_meshes[f].inside) {
+        const geometry::AuditBody &body = bodies.cell[c], &fixed = frame.static_meshes[f].body;
         keep(surface_depth(body, fixed, geometry::Location::kOutside));
         keep(surface_depth(fixed, body, geometry::Location::kInside));
       }
@@ -129,10 +129,11 @@ void audit_spheres_at_walls(const AuditFrame& frame, AuditResult& result) {
     std::int64_t wall = 0;
     const auto keep = [&](double depth) { keep_worst(result.cbm_wall, depth, s.id, wall++); };
     for (const AuditWall& w : frame.walls) keep(depth_behind(w, s.center, s.radius));
-    for (std::size_t f = 0; f < frame.statics.size(); ++f) {
-      const double depth = depth_in_fixed(
-          s, frame.statics[f].body,
-          frame.statics[f].inside ? geometry::Location::kOutside : geometry::Location::kInside);
+    for (std::size_t f = 0; f < frame.static_meshes.size(); ++f) {
+      const double depth =
+          depth_in_fixed(s, frame.static_meshes[f].body,
+                         frame.static_meshes[f].inside ? geometry::Location::kOutside
+                                                       : geometry::Location::kInside);
       keep(depth);
       keep_worst(result.center_in_static, depth - s.radius, s.id, static_cast<std::int64_t>(f));
     }
@@ -183,7 +184,7 @@ std::vector<Pair> find_pairs(const AuditFrame& frame, const Bodies& bodies) {
   for (const geometry::AuditBody& b : bodies.cell) box.push_back(b.box);
   for (const AuditSphere& s : frame.spheres) box.push_back(sphere_box(s.center, s.radius));
   for (const RoundCone& c : bodies.cone) box.push_back(c.box());
-  for (const AuditStatic& s : frame.statics) box.push_back(s.body.box);
+  for (const AuditStaticMesh& s : frame.static_meshes) box.push_back(s.body.box);
   const std::size_t sphere = bodies.cell.size(), cone = sphere + frame.spheres.size();
   const std::size_t fixed = cone + bodies.cone.size();
   std::vector<Pair> pair;
@@ -196,7 +197,7 @@ std::vector<Pair> find_pairs(const AuditFrame& frame, const Bodies& bodies) {
         pair.push_back({Pair::PairKind::kCellSphere, a, b - sphere});
       else if (b < fixed)
         pair.push_back({Pair::PairKind::kCellVessel, a, b - cone});
-      else if (!frame.statics[b - fixed].inside)
+      else if (!frame.static_meshes[b - fixed].inside)
         pair.push_back({Pair::PairKind::kCellFixed, a, b - fixed});
     } else if (a < cone && b < cone) {
       pair.push_back({Pair::PairKind::kSphereSphere, a - sphere, b - sphere});
@@ -224,7 +225,7 @@ double pair_depth(const AuditFrame& frame, const Bodies& bodies, const Pair& pai
     case Pair::PairKind::kCellVessel:
       return vessel_depth(bodies.cell[pair.a], bodies.cone[pair.b]);
     case Pair::PairKind::kCellFixed:
-      return body_depth(bodies.cell[pair.a], frame.statics[pair.b].body);
+      return body_depth(bodies.cell[pair.a], frame.static_meshes[pair.b].body);
     case Pair::PairKind::kSphereSphere:
       return sphere_overlap(frame.spheres[pair.a], frame.spheres[pair.b]);
     case Pair::PairKind::kSphereVessel:
@@ -274,9 +275,9 @@ void keep_pair(const AuditFrame& frame, const Pair& pair, AuditResult& result) {
 
 }  // namespace
 
-geometry::AuditBody prepare_static(std::span<const Vec3> node,
-                                   std::span<const std::array<int, 3>> triangle,
-                                   const std::string& what) {
+geometry::AuditBody prepare_static_mesh(std::span<const Vec3> node,
+                                        std::span<const std::array<int, 3>> triangle,
+                                        const std::string& what) {
   check_finite(node, what);
   geometry::AuditBody prepared(node, triangle);
   check(prepared.closed(), fmt::format("audit: {} is not closed", what));

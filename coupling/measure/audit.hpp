@@ -39,11 +39,11 @@ struct KnownIndentation {
 /// is not finite or the mesh is not closed.
 /// @param triangle  outward
 /// @param what      name in messages
-geometry::AuditBody prepare_static(std::span<const Vec3> node,
-                                   std::span<const std::array<int, 3>> triangle,
-                                   const std::string& what);
-struct AuditStatic {
-  geometry::AuditBody body;  ///< of prepare_static, expensive, once per run
+geometry::AuditBody prepare_static_mesh(std::span<const Vec3> node,
+                                        std::span<const std::array<int, 3>> triangle,
+                                        const std::string& what);
+struct AuditStaticMesh {
+  geometry::AuditBody body;  ///< of prepare_static_mesh, expensive, once per run
   bool inside = false;       ///< true: cells are inside it
 };
 
@@ -53,11 +53,11 @@ struct AuditFrame {
   std::span<const AuditSphere> spheres;
   std::span<const KnownIndentation> indentations;  ///< pairs not listed have none
   const geometry::Network* vessels = nullptr;
-  /// Surface of the vessels, of prepare_static, if cells touch it; the segments then only name the
-  /// nearest one.
+  /// Surface of the vessels, of prepare_static_mesh, if cells touch it; the segments then only name
+  /// the nearest one.
   const geometry::AuditBody* vessel_surface = nullptr;
   std::span<const AuditWall> walls;
-  std::span<const AuditStatic> statics;
+  std::span<const AuditStaticMesh> static_meshes;
 };
 
 struct WorstPair {
@@ -74,7 +74,7 @@ struct AuditResult {
   double max_penetration_grown_um = 0;
   WorstPair dcm_dcm;     ///< ids of the cells
   WorstPair dcm_vessel;  ///< cell id, vessel segment
-  WorstPair dcm_wall;    ///< cell id, index counted through walls, then statics
+  WorstPair dcm_wall;    ///< cell id, index counted through walls, then static meshes
   WorstPair dcm_cbm;     ///< mesh cell id, sphere id: geometric depth in the round sphere
   WorstPair
       dcm_cbm_beyond_indentation;  ///< the same minus the indentation that their force explains

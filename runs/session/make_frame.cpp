@@ -224,15 +224,15 @@ std::vector<coupling::KnownIndentation> explained_indentations(const coupling::W
 StaticBodies prepare_static_bodies(const contact::Boundary& boundary) {
   StaticBodies bodies;
   if (const contact::WallMesh* wall = boundary.vessels.wall.get())
-    bodies.vessel_surface = coupling::prepare_static(
+    bodies.vessel_surface = coupling::prepare_static_mesh(
         wall->surface.body.node, *wall->surface.triangle, "surface of the vessels");
   for (const contact::StaticMesh& m : boundary.meshes) {
     auto& outward = bodies.outward.emplace_back(*m.triangle);
     if (m.inside)
       for (auto& t : outward) std::swap(t[1], t[2]);
     bodies.mesh.push_back(
-        {coupling::prepare_static(m.body.node, outward,
-                                  fmt::format("static mesh {}", bodies.mesh.size())),
+        {coupling::prepare_static_mesh(m.body.node, outward,
+                                       fmt::format("static mesh {}", bodies.mesh.size())),
          m.inside});
   }
   return bodies;
@@ -260,7 +260,7 @@ coupling::AuditResult audit_world(const coupling::World& world, const coupling::
   frame.vessels = &boundary.vessels.network;
   frame.vessel_surface = bodies.vessel_surface ? &*bodies.vessel_surface : nullptr;
   frame.walls = walls;
-  frame.statics = bodies.mesh;
+  frame.static_meshes = bodies.mesh;
   return coupling::audit(frame, world.ranks);
 }
 

@@ -25,7 +25,7 @@ io::Frame make_frame(const coupling::World& world, const coupling::Workspace& wo
 /// Closed meshes of a boundary prepared for the audit; refers to the boundary.
 struct StaticBodies {
   std::optional<geometry::AuditBody> vessel_surface;  ///< none: cells touch cones
-  std::vector<coupling::AuditStatic> mesh;
+  std::vector<coupling::AuditStaticMesh> mesh;
   std::vector<std::vector<std::array<int, 3>>> outward;  ///< [mesh][triangle], oriented outwards
 };
 StaticBodies prepare_static_bodies(const contact::Boundary& boundary);

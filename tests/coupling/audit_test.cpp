@@ -212,18 +212,18 @@ TEST(Audit, PipettesCountTheFarthestNode) {
   EXPECT_DOUBLE_EQ(r.dcm_wall.depth_um, std::hypot(1, 2.25) - 2);
 }
 
-std::vector<AuditStatic> block_and_room(const Surface& block, const Surface& room) {
-  std::vector<AuditStatic> statics;
-  statics.push_back({prepare_static(block.node, block.triangle, "block"), false});
-  statics.push_back({prepare_static(room.node, room.triangle, "room"), true});
-  return statics;
+std::vector<AuditStaticMesh> block_and_box(const Surface& block, const Surface& box) {
+  std::vector<AuditStaticMesh> static_meshes;
+  static_meshes.push_back({prepare_static_mesh(block.node, block.triangle, "block"), false});
+  static_meshes.push_back({prepare_static_mesh(box.node, box.triangle, "box"), true});
+  return static_meshes;
 }
 
 TEST(Audit, StaticMeshesFromOutsideAndInside) {
-  const Surface block = brick({0, 0, 0}, {50, 50, 10}), room = brick({-9, -9, -9}, {60, 60, 60});
+  const Surface block = brick({0, 0, 0}, {50, 50, 10}), box = brick({-9, -9, -9}, {60, 60, 60});
   AuditFrame frame;
-  const std::vector<AuditStatic> statics = block_and_room(block, room);
-  frame.statics = statics;
+  const std::vector<AuditStaticMesh> static_meshes = block_and_box(block, box);
+  frame.static_meshes = static_meshes;
   EXPECT_EQ(audit_bodies({brick({5, 5, 10}, {9, 9, 14})}, frame).dcm_wall.depth_um, 0);
   auto r = audit_bodies({brick({5, 5, 9.5}, {9, 9, 14})}, frame);
   EXPECT_DOUBLE_EQ(r.dcm_wall.depth_um, 0.5);
@@ -231,11 +231,11 @@ TEST(Audit, StaticMeshesFromOutsideAndInside) {
   r = audit_bodies({brick({55, 20, 20}, {61, 30, 30})}, frame);
   EXPECT_DOUBLE_EQ(r.dcm_wall.depth_um, 1);
   EXPECT_EQ(r.dcm_wall.ids, (Ids{100, 1}));
-  r = audit_bodies({brick({80, 20, 20}, {85, 30, 30})}, frame);  // left the room altogether
+  r = audit_bodies({brick({80, 20, 20}, {85, 30, 30})}, frame);  // left the box altogether
   EXPECT_DOUBLE_EQ(r.dcm_wall.depth_um, 25);
   Surface open = block;
   open.triangle.pop_back();
-  EXPECT_THROW(prepare_static(open.node, open.triangle, "an open mesh"), Error);
+  EXPECT_THROW(prepare_static_mesh(open.node, open.triangle, "an open mesh"), Error);
 }
 
 TEST(Audit, SpheresAgainstCellsAndEachOther) {
@@ -281,29 +281,28 @@ TEST(Audit, SpheresInVesselsAndWallsAreToldAndAreNoPenetration) {
   r = audit(frame);
   EXPECT_NEAR(r.cbm_wall.depth_um, 2, 1e-13);
   EXPECT_EQ(r.cbm_wall.ids, (Ids{7, 0}));
-  const Surface block = brick({25, -20, 0}, {60, 20, 40}), room = brick({-9, -30, 0}, {60, 30, 90});
-  const std::vector<AuditStatic> statics = block_and_room(block, room);
+  const Surface block = brick({25, -20, 0}, {60, 20, 40}), box = brick({-9, -30, 0}, {60, 30, 90});
+  const std::vector<AuditStaticMesh> static_meshes = block_and_box(block, box);
   frame.walls = {};
-  frame.statics = statics;
-  r = audit(
-      frame);  // one reaches 12 - (25 - 15.7) into the block, the other 12 - 9 out of the room
+  frame.static_meshes = static_meshes;
+  r = audit(frame);  // one reaches 12 - (25 - 15.7) into the block, the other 12 - 9 out of the box
   EXPECT_NEAR(r.cbm_wall.depth_um, 3, 1e-13);
   EXPECT_EQ(r.cbm_wall.ids, (Ids{8, 1}));
   EXPECT_TRUE(r.center_in_static.ids.empty()) << "both centres are where they may be";
 }
 
 TEST(Audit, CentresOnTheWrongSideOfStaticMeshesAreTold) {
-  const Surface block = brick({0, 0, 0}, {50, 50, 50}), room = brick({-9, -9, -9}, {90, 90, 90});
-  const std::vector<AuditStatic> statics = block_and_room(block, room);
+  const Surface block = brick({0, 0, 0}, {50, 50, 50}), box = brick({-9, -9, -9}, {90, 90, 90});
+  const std::vector<AuditStaticMesh> static_meshes = block_and_box(block, box);
   AuditFrame frame;
-  frame.statics = statics;
+  frame.static_meshes = static_meshes;
   // The large one reaches deeper into the block, but the small one's centre is in it.
   std::vector<AuditSphere> spheres{{7, {25, 25, 51}, 12}, {8, {25, 25, 47}, 5}};
   frame.spheres = spheres;
   auto r = audit(frame);
   EXPECT_NEAR(r.center_in_static.depth_um, 3, 1e-13);
   EXPECT_EQ(r.center_in_static.ids, (Ids{8, 0}));
-  spheres = {{7, {70, 70, 120}, 12}};  // far from any triangle, outside the room
+  spheres = {{7, {70, 70, 120}, 12}};  // far from any triangle, outside the box
   frame.spheres = spheres;
   r = audit(frame);
   EXPECT_NEAR(r.center_in_static.depth_um, 30, 1e-13);
