@@ -1,5 +1,5 @@
 #pragma once
-/// A cell chosen from a state of either model or of both, to be copied into another state.
+/// Cell chosen from a state of either model or of both, to be copied into another state.
 
 #include <cstddef>
 

@@ -51,7 +51,7 @@ struct State {
   bool active(std::size_t lane) const { return lineage[lane] != kEmptyLane; }
 };
 
-/// A new cell to be placed: a sphere of the given reference radius.
+/// New cell to be placed: a sphere of the given reference radius.
 struct NewCell {
   std::int64_t lineage = 0;
   int type = 0;

@@ -16,7 +16,7 @@ struct Piece {
   bool at_border = false;      ///< touches the border of the image, so part of it may be outside
 };
 
-/// A row of voxels of one piece along x.
+/// Row of voxels of one piece along x.
 struct PieceRow {
   Voxel first{};
   int length = 0, piece = 0;

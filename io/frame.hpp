@@ -8,7 +8,7 @@
 
 namespace acinus::io {
 
-/// A named array of `components` values per row. Lengths um, times s, forces nN, stresses kPa.
+/// Named array of `components` values per row. Lengths um, times s, forces nN, stresses kPa.
 struct Field {
   std::string name;
   std::string unit;

@@ -1,5 +1,5 @@
 #pragma once
-/// The matrix of a System as an operator, with its preconditioner: 3x3 diagonal blocks, and the
+/// Matrix of a System as an operator, with its preconditioner: 3x3 diagonal blocks, and the
 /// rank-one terms (volume and area of a cell) whole.
 
 #include <cstddef>

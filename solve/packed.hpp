@@ -27,7 +27,7 @@ struct FourType<float> {
 
 }  // namespace detail
 
-/// A packed point in a register.
+/// Packed point in a register.
 template <class T>
 using Four = typename detail::FourType<T>::type;
 

@@ -60,7 +60,7 @@ int number_groups(const System& s, std::span<const std::uint8_t> active, RigidWo
   return n;
 }
 
-/// The six unit motions of a point: three translations, then rotations about the centre.
+/// Six unit motions of a point: three translations, then rotations about the centre.
 Map3x6 unit_motions(const Vec3& from_center) {
   Map3x6 m;
   m.leftCols<3>().setIdentity();

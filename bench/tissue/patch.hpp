@@ -6,9 +6,9 @@
 
 namespace acinus::bench {
 
-/// The shipped patch_capsule with shifted zoom regions and with plain spheres. Figures are means
-/// over all frames with a mean pressure of the deformable ball from 5 Pa to 250 Pa. Runs are kept
-/// in the folder "patch" of options.folder and not repeated.
+/// Benchmark: shipped scene patch_capsule with shifted zoom regions and with plain spheres. Figures
+/// are means over all frames with a mean pressure of the deformable ball from 5 Pa to 250 Pa. Runs
+/// are kept in the folder "patch" of options.folder and not repeated.
 BenchTable bench_patch(const BenchOptions& options);
 
 }  // namespace acinus::bench

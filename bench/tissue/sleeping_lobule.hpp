@@ -5,7 +5,7 @@
 
 namespace acinus::bench {
 
-/// The shipped lobule with resting cells, from its settled state with and without sleep.
+/// Benchmark: shipped lobule with resting cells, from its settled state with and without sleep.
 BenchTable bench_sleep(const BenchOptions& options);
 
 }  // namespace acinus::bench

@@ -92,7 +92,7 @@ class UniformStream {
   int used_ = 4;
 };
 
-/// The elementary functions behind the normal numbers, same bits on every IEEE 754 machine.
+/// Elementary functions behind the normal numbers, with the same bits on every IEEE 754 machine.
 namespace portable {
 
 /// Natural logarithm of a positive normal number, within 2 ulp for x <= 1.

@@ -1,5 +1,5 @@
 #pragma once
-/// The unit part of a quantity: "N s/m^3". For units.cpp; others use units.hpp.
+/// Unit part of a quantity: "N s/m^3". For units.cpp; others use units.hpp.
 
 #include <string_view>
 
@@ -7,7 +7,7 @@
 
 namespace acinus {
 
-/// A product of unit powers.
+/// Product of unit powers.
 struct Scale {
   Dimension dimension;
   int ten = 0;

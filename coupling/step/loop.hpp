@@ -1,5 +1,5 @@
 #pragma once
-/// The only loop over steps.
+/// Loop over steps, the only one.
 
 #include <functional>
 

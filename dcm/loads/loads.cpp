@@ -29,7 +29,7 @@ bool any_nucleus(std::span<const Params> params, double Nucleus::*modulus) {
       params, [&](const Params& p) { return p.nucleus && (*p.nucleus).*modulus > 0; });
 }
 
-/// The rank-one families in their order in the system; null: no type needs it.
+/// Rank-one families in their order in the system; null: no type needs it.
 struct Families {
   solve::RankOne *volume = nullptr, *area = nullptr;
   solve::RankOne *nucleus_volume = nullptr, *nucleus_area = nullptr;

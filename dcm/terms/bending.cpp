@@ -35,7 +35,7 @@ ACINUS_INLINE Collapse find_collapse(Lane least, Lane area) {
   return {compression, compression > 0.0 ? least * inverse * inverse : lane_of(0)};
 }
 
-/// A face of a hinge: corners about its normal, the last two on the edge.
+/// Face of a hinge: corners about its normal, the last two on the edge.
 struct HingeFace {
   Lane3 x[3];
   Lane3 normal;

@@ -1,5 +1,5 @@
 #pragma once
-/// The shell of a nucleus: the terms of a cortex with constants of its own.
+/// Shell of a nucleus: the terms of a cortex with constants of its own.
 
 #include "dcm/group_view.hpp"
 #include "dcm/params.hpp"

@@ -30,14 +30,15 @@ void raise(const Error& error) {
   PyErr_SetString(errors.attr(name).ptr(), error.what());
 }
 
-/// A signal that stopped the work is the user's Ctrl-C as far as Python knows.
+/// Raises KeyboardInterrupt for a signal that stopped the work: Python knows only the user's
+/// Ctrl-C.
 void check_interrupt(bool went_on) {
   if (went_on) return;
   PyErr_SetNone(PyExc_KeyboardInterrupt);
   throw py::error_already_set();
 }
 
-/// A read-only view of numbers that the loan keeps alive.
+/// Read-only view of numbers that the loan keeps alive.
 py::array view(const std::vector<py::ssize_t>& shape, const std::vector<py::ssize_t>& strides,
                const double* data, std::shared_ptr<const Loan> loan) {
   auto* kept = new std::shared_ptr<const Loan>(std::move(loan));

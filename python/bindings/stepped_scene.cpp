@@ -36,7 +36,7 @@ coupling::World build(const runs::Scene& scene, std::vector<std::string>& type_n
 
 bool is_finite(const Vec3& x) { return x.allFinite(); }
 
-/// The living cell of a lineage.   @throws Error
+/// Living cell of a lineage.   @throws Error
 coupling::Cell require_cell(const coupling::State& s, std::int64_t lineage) {
   const std::optional<coupling::Cell> found = coupling::find_cell(s, lineage);
   check(found.has_value(), fmt::format("there is no cell {} now", lineage));

@@ -1,5 +1,5 @@
 #pragma once
-/// A scene that a caller steps, looks at and changes.
+/// Scene that a caller steps, inspects and changes.
 
 #include <cstdint>
 #include <memory>

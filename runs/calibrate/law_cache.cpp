@@ -73,7 +73,7 @@ Scene made_for_law(const Scene& scene) {
   return s;
 }
 
-/// A value to its last digit; -1 for "auto".
+/// Text of a value to its last digit; -1 for "auto".
 std::string exact_text(const KeyValue& value) {
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   if (const auto* number = std::get_if<double>(&value)) return fmt::format("{:a}", *number);

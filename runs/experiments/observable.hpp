@@ -6,7 +6,7 @@
 
 namespace acinus::runs {
 
-/// A column of /observables in the run file.
+/// Column of /observables in the run file.
 struct Observable {
   std::string name;     ///< ends in its unit where there is one
   std::string unit;     ///< of the values, "1" if there is none

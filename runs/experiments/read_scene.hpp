@@ -16,13 +16,13 @@ namespace acinus::runs {
 ///         if a scene file cannot be read at all
 Scene read_scene(const std::string& path, const std::vector<std::string>& set = {});
 
-/// The same for a text in memory.
+/// Reads a scene from a text in memory.
 /// @param label   stands for the file name in messages; its stem is the default scene name
 /// @param folder  where relative file names start
 Scene parse_scene(const std::string& text, const std::string& label,
                   const std::string& folder = ".", const std::vector<std::string>& set = {});
 
-/// A document that was read and changed before.
+/// Reads a scene from a document that was read and changed before.
 /// @param label  the scene's file in messages; its stem is the default scene name
 Scene read_scene(const Document& document, const std::string& label);
 

@@ -1,33 +1,34 @@
 #pragma once
-/// JSON of strangers: the one way in which texts other than scenes are parsed.
+/// Parser of untrusted JSON, for all texts other than scenes.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace acinus::runs {
 
-/// Json: nlohmann::json or nlohmann::ordered_json.
+/// Parses JSON within the bounds of core/json_size.hpp.
+/// @tparam Json  nlohmann::json or nlohmann::ordered_json
 /// @return the value; one that is_discarded() where the text is no JSON
-/// @throws Error(kBadInput) naming `what` and the bound of core/json_size.hpp that it breaks
+/// @throws Error(kBadInput) naming `what` and the bound that it breaks
 template <class Json>
 Json parse_bounded(const std::string& text, const std::string& what);
 
-/// The same of a file that may be absent, cut off or hostile.
+/// Parses the text of a file that may be absent, cut off or hostile.
 /// @return a value that is_discarded() for anything but JSON within the bounds
 template <class Json>
 Json parse_or_discard(const std::string& text);
 
-/// A member that is a text; "" where there is none, or it is something else.
+/// Member that is a text; "" where there is none, or it is something else.
 template <class Json>
 std::string text_at(const Json& object, const char* name);
 
-/// A member that is a number of things.
+/// Member that is a count.
 /// @throws Error(kBadInput) naming `what` and the member unless it is a whole number from 0 to 2^31
 /// - 1
 template <class Json>
 int count_at(const Json& object, const char* name, const std::string& what);
 
-/// A member that is a time.
+/// Member that is a time, s.
 /// @param lowest  s; times of start-up are negative
 /// @throws Error(kBadInput) naming `what` and the member unless it is a number from `lowest` on
 template <class Json>

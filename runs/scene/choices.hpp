@@ -61,7 +61,7 @@ inline constexpr const char* kChoices<coupling::InhibitedBy> = "none|pressure|vo
 template <>
 inline constexpr const char* kChoices<coupling::Lattice> = "fcc|bcc";
 
-/// The parts of "dcm|cbm|zoom".
+/// Parts of "dcm|cbm|zoom".
 std::vector<std::string> split_choices(const char* choices);
 
 /// Part `index` of "dcm|cbm|zoom"; "" beyond its end.
@@ -70,7 +70,7 @@ std::string choice_name(const char* choices, int index);
 /// Index of a name among the parts of "dcm|cbm|zoom"; -1: it is none of them.
 int choice_index(const char* choices, const std::string& name);
 
-/// The name of a value, as scenes write it.
+/// Name of a value, as scenes write it.
 template <class E>
 std::string name_of_choice(E value) {
   return choice_name(kChoices<E>, static_cast<int>(value));

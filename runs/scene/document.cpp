@@ -116,7 +116,7 @@ std::vector<std::string> split_path(std::string_view path) {
   return parts;
 }
 
-/// The value at a path; blocks on the way are made when missing.
+/// Value at a path; blocks on the way are made when missing.
 /// @param where  stands before what is wrong
 Node& reach(Document& document, const std::vector<std::string>& parts, TextPlace origin,
             const std::string& where) {

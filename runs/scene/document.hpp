@@ -1,5 +1,5 @@
 #pragma once
-/// A scene's JSON tree after merging the files it `extends` and the values replaced from the
+/// JSON tree of a scene after merging the files it `extends` and the values replaced from the
 /// command line (`--set`); every value still knows where it was written.
 
 #include <cstddef>
@@ -22,7 +22,8 @@ struct Document {
 ///         files that extend each other in a circle.
 Document read_document(const std::string& path);
 
-/// The same for a text in memory; `folder` is where its relative paths start.
+/// Parses a text in memory as read_document() does a file.
+/// @param folder  start of its relative paths
 Document parse_document(const std::string& text, const std::string& label,
                         const std::string& folder);
 
@@ -38,7 +39,7 @@ void apply_set(Document& document, const std::string& assignment);
 void put_value(Document& document, const std::string& path, const JsonMember& value,
                const std::string& where);
 
-/// The bytes of a regular file of at most `limit` bytes. @throws Error (kFileError).
+/// Bytes of a regular file of at most `limit` bytes. @throws Error (kFileError).
 std::string read_file(const std::string& path, std::size_t limit);
 
 }  // namespace acinus::runs

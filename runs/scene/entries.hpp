@@ -1,5 +1,5 @@
 #pragma once
-/// The lines of a registry: properties of each key, those taken over from its block included.
+/// Lines of a registry: properties of each key, those taken over from its block included.
 
 #include <functional>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace acinus::runs {
 
-/// One line of the registry.
+/// Line of the registry.
 struct Entry {
   std::string path;        ///< "cell_types.<name>.dcm.nodes"
   std::string short_path;  ///< "cell.dcm.nodes", what error messages print
@@ -33,7 +33,7 @@ struct Entry {
   std::string law_name;
 };
 
-/// The lines of any registry, in its order, below that of the key `extends`.
+/// Lines of any registry, in its order, below that of the key `extends`.
 /// @param extends  meaning of that key
 std::vector<Entry> collect_entries(const char* extends,
                                    const std::function<void(Visitor&)>& describe);

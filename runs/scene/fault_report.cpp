@@ -7,7 +7,7 @@
 namespace acinus::runs {
 namespace {
 
-/// The value one step down from `node`.
+/// Value one step down from `node`.
 const Node* child(const Node& node, const std::string& part) {
   if (node.kind == Node::Kind::kList) {
     std::size_t index = 0;

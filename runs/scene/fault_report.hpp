@@ -14,14 +14,14 @@ class Report {
  public:
   explicit Report(const Document& document) : document_(document) {}
 
-  /// A mistake at a place of the text. Its pointer counts as bad from now on.
+  /// Adds a mistake at a place of the text. Its pointer counts as bad from now on.
   void add(TextPlace origin, const std::string& pointer, const std::string& message);
 
-  /// A mistake of a value: "pointer = value: message".
+  /// Adds a mistake of a value: "pointer = value: message".
   void add_value(const Node& node, const std::string& pointer, const std::string& message);
 
-  /// A broken relation between keys. Stands at the first of them that the text contains, else at
-  /// the nearest block around; left out if one of them is already known to be bad.
+  /// Adds a broken relation between keys. Stands at the first of them that the text contains, else
+  /// at the nearest block around; left out if one of them is already known to be bad.
   /// @param value  how the first key's value is shown, for keys left at their default
   void add_relation(std::initializer_list<std::string> pointers, const std::string& value,
                     const std::string& message);
@@ -29,7 +29,7 @@ class Report {
   /// True if this value, a component of it or a block around it is bad.
   bool is_bad(const std::string& pointer) const;
 
-  /// The value at a pointer, nullptr if the text has none.
+  /// Value at a pointer, nullptr if the text has none.
   const Node* find(const std::string& pointer) const;
 
   /// Throws everything collected as one Error; returns if there is nothing.

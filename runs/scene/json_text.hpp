@@ -66,20 +66,20 @@ void throw_complaints(const std::vector<Source>& sources, std::vector<Complaint>
 ///         kMaxDepth, sizes above kMaxBytes, kMaxValues or kMaxNames.
 Node parse_json(const std::vector<Source>& sources, int source, const std::string& text);
 
-/// A value as one line of JSON, whole.
+/// Value as one line of JSON, whole.
 std::string json_of(const Node& node);
 
-/// A value as one line of JSON, cut after 60 characters.
+/// Value as one line of JSON, cut after 60 characters.
 std::string shown(const Node& node);
 
-/// A name as it stands in a pointer: ~ and / escaped, control characters made visible, cut when
+/// Name as it stands in a pointer: ~ and / escaped, control characters made visible, cut when
 /// long.
 std::string pointer_part(std::string_view name);
 
 /// True if the bytes are UTF-8; else gives the offset of the first wrong byte.
 bool is_utf8(std::string_view text, std::size_t* wrong_byte = nullptr);
 
-/// The text with a question mark for every byte that is not UTF-8: names of files need not be.
+/// Replaces every byte that is not UTF-8 by a question mark: names of files need not be UTF-8.
 std::string as_utf8(std::string text);
 
 }  // namespace acinus::runs

@@ -23,7 +23,7 @@ bool is_name(const std::string& text) {
 namespace {
 using Kind = Node::Kind;
 
-/// A name that may have spaces inside.
+/// True for a name that may have spaces inside.
 bool is_label(std::string text) {
   if (text.empty() || text.front() == ' ' || text.back() == ' ') return false;
   std::erase(text, ' ');
@@ -286,7 +286,7 @@ class KeyReader final : public Visitor {
   std::string pointer_of(const Key& key) const { return frame_.pointer + "/" + key.name; }
   std::string short_path(const char* name) const { return frame_.short_path + name + "."; }
 
-  /// The value of a key, nullptr if it is to stay at its default.
+  /// Value of a key, nullptr if it is to stay at its default.
   const Node* take(const Key& key) {
     frame_.known.emplace_back(key.name);
     const Node* node = frame_.node != nullptr ? frame_.node->find(key.name) : nullptr;

@@ -16,7 +16,7 @@ namespace acinus::runs {
 void read_keys(const Document& document, Report& report,
                const std::function<void(Visitor&)>& describe, const std::string& prefix = "");
 
-/// A name made of a file name: its stem with everything that cannot stand in a name replaced.
+/// Name made of a file name: its stem with everything that cannot stand in a name replaced.
 std::string default_name(const std::string& label);
 
 /// Letters, digits, _ and -, at most 100.

@@ -22,7 +22,7 @@ using KeyValue = std::variant<bool, int, double, std::optional<double>, std::str
 void for_each_value(const std::function<void(Visitor&)>& describe,
                     const std::function<void(const Key&, const KeyField&)>& act);
 
-/// The field as a number, 0 for "auto". @pre it is a number
+/// Field as a number, 0 for "auto". @pre it is a number
 double number_in(const KeyField& field);
 
 /// Values of the keys that `describe` shows and `chosen` accepts, in the registry's order.

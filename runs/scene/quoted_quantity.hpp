@@ -7,16 +7,16 @@
 
 namespace acinus::runs {
 
-/// A quantity in quotes, in its preferred unit: "5 um".
+/// Quantity in quotes, in its preferred unit: "5 um".
 /// @param value  in base units
 inline std::string quoted_quantity(double value, Dimension dimension, const char* unit) {
   return "\"" + format_quantity(value, dimension, unit) + "\"";
 }
 
-/// A time in quotes, such as "5 s".
+/// Time in quotes, such as "5 s".
 inline std::string quoted_time(double value) { return quoted_quantity(value, kTime, "s"); }
 
-/// A length in quotes.
+/// Length in quotes.
 inline std::string quoted_length(double value) { return quoted_quantity(value, kLength, "um"); }
 
 }  // namespace acinus::runs

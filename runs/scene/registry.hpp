@@ -1,5 +1,5 @@
 #pragma once
-/// The registry of scene keys: one entry per parameter with its path, type, dimension, unit,
+/// Registry of scene keys: one entry per parameter with its path, type, dimension, unit,
 /// default, range and meaning, and with its effects: on what a change of it acts, its part in
 /// comparisons, laws of calibration and dissolving cells. Reader, resolved scene, JSON Schema,
 /// `explain` and docs/scene_keys.md are all visitors of describe(), so no key can be known to one

@@ -1,5 +1,5 @@
 #pragma once
-/// The JSON Schema of a scene, made from the registry.
+/// JSON Schema of a scene, made from the registry.
 
 #include <functional>
 #include <string>
@@ -13,7 +13,7 @@ namespace acinus::runs {
 /// keys stay with `acinus check`.
 std::string scene_schema();
 
-/// The same for any registry.
+/// JSON Schema of any registry.
 /// @param extends  meaning of the key of that name
 std::string make_schema(const char* title, const char* extends,
                         const std::function<void(Visitor&)>& describe);

@@ -1,5 +1,5 @@
 #pragma once
-/// The scenes that come with the program.
+/// Scenes that come with the program.
 
 #include <string>
 #include <vector>

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Kind = Node::Kind;
 
-/// A path fit for a message: no control characters, not endless.
+/// Path fit for a message: no control characters, not endless.
 std::string pointer_path(const std::string& path) {
   std::string text = path.substr(0, 500);
   std::replace_if(

@@ -22,7 +22,7 @@ class ValueReader {
   bool read_real(const Key& key, const Node& node, const std::string& pointer, double& value) const;
   void read_vector(const Key& key, const Node& node, const std::string& pointer, Vec3& value) const;
   void read_integer(const Key& key, const Node& node, const std::string& pointer, int& value) const;
-  /// A whole number too large for an int, such as a lineage number.
+  /// Reads a whole number too large for an int, such as a lineage number.
   bool read_long(const Key& key, const Node& node, const std::string& pointer,
                  std::int64_t& value) const;
   void read_file_name(const Key& key, const Node& node, const std::string& pointer,

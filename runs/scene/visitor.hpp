@@ -72,12 +72,12 @@ struct Key {
   const char* law_name = "";  ///< of a constant in law files, with its unit
 };
 
-/// The parts of Key::choices.
+/// Parts of Key::choices.
 std::vector<std::string> choices_of(const Key& key);
 
 class Visitor;
 
-/// A list or map of blocks as a visitor sees it.
+/// List or map of blocks as a visitor sees it.
 struct Elements {
   std::function<std::size_t()> size;
   std::function<void(std::size_t)> resize;           ///< lists
@@ -102,18 +102,18 @@ class Visitor {
   /// Two opposite corners or null.
   virtual void box(const Key& key, std::optional<std::array<Vec3, 2>>& value) = 0;
   virtual void counts(const Key& key, std::array<int, 3>& value) = 0;
-  /// A list of whole numbers of any length.
+  /// List of whole numbers of any length.
   virtual void integers(const Key& key, std::vector<std::int64_t>& values) = 0;
-  /// A list of texts of any length.
+  /// List of texts of any length.
   virtual void texts(const Key& key, std::vector<std::string>& values) = 0;
-  /// A value whose type another key decides, with the place it was written; empty = not given.
+  /// Value whose type another key decides, with the place it was written; empty = not given.
   virtual void value(const Key& key, std::optional<Node>& value) = 0;
   virtual void values(const Key& key, std::vector<Node>& values) = 0;
   /// Values by names that no registry of this visitor knows.
   virtual void settings(const Key& key, std::vector<JsonMember>& members) = 0;
-  /// A block that is always there.
+  /// Block that is always there.
   virtual void object(const Key& key, const Members& members) = 0;
-  /// A block that may be absent; `members` may be called only while it is present.
+  /// Block that may be absent; `members` may be called only while it is present.
   virtual void optional_object(const Key& key, bool present,
                                const std::function<void(bool)>& set_present,
                                const Members& members) = 0;

@@ -7,7 +7,7 @@
 
 namespace acinus::runs {
 
-/// The scene as canonical JSON: registry order, every key, quantities in their preferred units with
+/// Scene as canonical JSON: registry order, every key, quantities in their preferred units with
 /// the digits that give the same doubles again, file names absolute. Reading it gives the same
 /// scene.
 std::string write_resolved(const Scene& scene);

@@ -39,7 +39,7 @@ struct ChildOptions {
 /// Path of a program in the folder of this one.
 std::string program_beside(const std::string& name);
 
-/// A child process. The destructor kills it if it still runs.
+/// Child process. The destructor kills it if it still runs.
 class Child {
  public:
   /// Starts the child.

@@ -1,5 +1,5 @@
 #pragma once
-/// A study as a whole: its runs and its report (`acinus study`).
+/// Study as a whole: its runs and its report (`acinus study`).
 
 #include <string>
 

@@ -35,7 +35,7 @@ void check_contraction(const Scene& scene, Report& report) {
     check_course_of_type(scene, "/cell_types/" + name + "/dcm", type.dcm, report);
 }
 
-/// A cell that dissolves has another type and goes on contracting.
+/// Adds contraction. A cell that dissolves has another type and goes on contracting.
 void add_contraction(const Scene& scene, coupling::Params& params) {
   coupling::Contraction contraction;
   contraction.course.resize(params.dcm.size());

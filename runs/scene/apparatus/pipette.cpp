@@ -91,7 +91,7 @@ void check_pipette(const Scene& scene, Report& report) {
   check_suction(scene, *scene.pipette, report);
 }
 
-/// The suction; the tube is a wall and is built with the boundary.
+/// Adds suction; the tube is a wall and is built with the boundary.
 void add_suction(const Scene& scene, coupling::Params& params) {
   if (!scene.pipette || scene.pipette->suction.entry.empty()) return;
   const PipetteBlock& p = *scene.pipette;
