@@ -26,7 +26,7 @@ inline bool contains(std::string_view text, std::string_view part) {
 #define EXPECT_CONTAINS(text, part) \
   EXPECT_PRED2(::acinus::test::contains, std::string(text), std::string(part))
 
-/// The message of the Error that `call` throws, "" if it throws none; checks the exit code.
+/// Message of the Error that `call` throws, "" if it throws none; checks the exit code.
 template <class Call>
 std::string fault_of(const Call& call, Exit code = Exit::kBadInput) {
   try {
@@ -38,7 +38,7 @@ std::string fault_of(const Call& call, Exit code = Exit::kBadInput) {
   return "";
 }
 
-/// The same of a call that must throw.
+/// Message of the Error that `call` must throw; checks the exit code.
 template <class Call>
 std::string message_of(const Call& call, Exit code = Exit::kBadInput) {
   const std::string fault = fault_of(call, code);

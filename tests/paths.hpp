@@ -6,16 +6,16 @@
 
 namespace acinus::test {
 
-/// A file below the root of the sources.
+/// File below the root of the sources.
 std::string source_path(const std::string& file);
-/// A file below tests/data/.
+/// File below tests/data/.
 std::string data_path(const std::string& file);
-/// The program acinus.
+/// Program acinus.
 std::string program_path();
 
 /// Presence of the folder of networks and meshes made by others, which is no part of the sources.
 bool has_real_data();
-/// A file in that folder.
+/// File in that folder.
 std::string real_path(const std::string& file);
 
 }  // namespace acinus::test

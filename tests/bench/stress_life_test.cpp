@@ -1,4 +1,4 @@
-/// The judge of the stress suite looks at cells that divide and die.
+/// Tests of the judge of the stress suite on cells that divide and die.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 using Found = std::set<Defect>;
 
-/// A deformable cell and a sphere that divide, and one of each that dissolve, all far apart; run
+/// Deformable cell and sphere that divide, and one of each that dissolve, all far apart; run
 /// by hand until a quarter of a cycle after both have divided. Two frames a cycle.
 class LifeInspection : public testing::Test {
  protected:
@@ -49,7 +49,7 @@ class LifeInspection : public testing::Test {
         start_(runs::build_world(scene_, Ranks::serial()).world),
         record_(sound()) {}
 
-  /// The run is the same for all tests.
+  /// Run made once for all tests.
   const Record& sound() const {
     static const Record record = live_through(start_);
     return record;

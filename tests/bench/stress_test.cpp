@@ -1,4 +1,4 @@
-/// The scene generator of the stress suite, and the judge that looks at what runs leave behind.
+/// Scene generator of the stress suite, and the judge of what runs leave behind.
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +59,7 @@ TEST(RandomScene, IsTheSameTextEveryTimeAndAnotherForAnotherSeed) {
   EXPECT_EQ(texts.size(), 50u);
 }
 
-/// A seed names a scene for ever: FNV-1a of the texts, without life and with the integrators there
+/// Fixed scenes of seeds: FNV-1a of the texts, without life and with the integrators there
 /// are.
 TEST(RandomScene, IsTheSceneItHasAlwaysBeen) {
   std::uint64_t hash = 0xcbf29ce484222325;

@@ -1,4 +1,4 @@
-/// The work-precision benchmark on two small cells.
+/// Work-precision benchmark on two small cells.
 
 #include <gtest/gtest.h>
 

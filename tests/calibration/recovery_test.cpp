@@ -14,7 +14,7 @@ struct Course {
   std::vector<double> t, y;
 };
 
-/// A jump of `at_once` within seconds, then a slow decay, over a time on a logarithmic grid.
+/// Jump of `at_once` within seconds, then a slow decay, over a time on a logarithmic grid.
 Course make_course(double at_once, double slow, double end, double scale = 1) {
   Course c;
   c.t.push_back(0);

@@ -18,7 +18,7 @@ namespace {
 
 using reference::kEps;
 
-/// The same spheres with strengths from 0 to 1, some of them exactly 0 or 1.
+/// Same spheres with strengths from 0 to 1, some of them exactly 0 or 1.
 Spheres weakened(Spheres s, std::uint64_t seed) {
   auto random = reference::stream(seed);
   for (Ramp& r : s.state.strength)

@@ -14,7 +14,7 @@
 namespace acinus::cbm {
 namespace {
 
-/// A sphere with a law of one knot above zero beside a straight vessel along z.
+/// Sphere with a law of one knot above zero beside a straight vessel along z.
 Spheres beside_vessel(double gap, double young_of_wall) {
   Spheres s({sphere({4.7 + gap, 0, 0}, 12, 0.05)});
   s.params[0].poisson = 0.47;

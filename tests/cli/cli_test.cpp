@@ -49,7 +49,7 @@ std::string output_of_bash(const std::string& line) {
   return text;
 }
 
-/// The commands, as the program's help lists them.
+/// Commands, as the program's help lists them.
 std::vector<std::string> command_names() {
   std::istringstream help(call("--help").text);
   std::vector<std::string> names;

@@ -83,7 +83,7 @@ TEST(GapToSegment, OnTheAxisTheNormalIsAcross) {
   EXPECT_NEAR(g.normal.x(), 0, 1e-15);
 }
 
-/// A straight chain of segments along a random line, total length 60 um, cut at random places.
+/// Straight chain of segments along a random line, total length 60 um, cut at random places.
 Vessels straight_chain(UniformStream& random, int pieces, const Vec3& from, const Vec3& to,
                        double r0, double r1) {
   std::vector<double> cut{0, 1};

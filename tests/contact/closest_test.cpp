@@ -15,7 +15,7 @@ namespace {
 
 using reference::kEps;
 
-/// A bumpy sphere with a few triangles compressed flat.
+/// Bumpy sphere with a few triangles compressed flat.
 struct Bumpy {
   std::vector<std::array<int, 3>> triangle;
   SurfaceBody body;
@@ -45,7 +45,7 @@ Vec3 point_of(const PointBlock& block, int i) {
   return {block.x[3 * i], block.x[3 * i + 1], block.x[3 * i + 2]};
 }
 
-/// A block of n points near the surface, some right on its corners and edges, and every triangle a
+/// Block of n points near the surface, some right on its corners and edges, and every triangle a
 /// candidate of each, the likeliest first.
 struct Question {
   std::vector<int> triangle;

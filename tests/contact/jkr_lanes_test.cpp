@@ -58,7 +58,7 @@ std::vector<SpherePair> wide_pairs(const std::vector<double>& adhesions) {
 }
 const std::vector<double> kAdhesions = {1e-6, 1e-4, 0.01, 1.0};
 
-/// The larger of the two terms whose difference is the force, nN.
+/// Larger of the two terms whose difference is the force, nN.
 double larger_term(const SpherePair& p, double contact_radius) {
   const double a3 = contact_radius * contact_radius * contact_radius;
   return std::max(4 * p.modulus * a3 / (3 * p.radius),

@@ -14,7 +14,7 @@ using test::Scatter, test::Setting;
 
 constexpr double kDmt = 2 * kPi * test::kSphereRadius / 2 * 0.01;  ///< nN, 2 pi W R^
 
-/// The overlap of the largest pull of exact spheres, um, and that pull over kDmt.
+/// Overlap at the largest pull of exact spheres, um, and that pull over kDmt.
 struct PullOff {
   double overlap, ratio;
 };
@@ -27,7 +27,7 @@ PullOff exact_pull_off(const Setting& s) {
   return {state.approach * unit * unit / radius, -state.load / 2};
 }
 
-/// The largest pull of each pair of orientations over kDmt, over overlaps that are `step` apart.
+/// Largest pull of each pair of orientations over kDmt, over overlaps that are `step` apart.
 Scatter largest_pull(const Setting& s, double step) {
   auto random = reference::stream(s.nodes);
   const double end = test::curve_of(s).least_overlap;

@@ -19,7 +19,7 @@ struct Body {
   std::vector<CurvedTriangle> curved;
 };
 
-/// An icosphere whose nodes are on a sphere, turned, with the exact curvature or the estimated one.
+/// Icosphere whose nodes are on a sphere, turned, with the exact curvature or the estimated one.
 inline Body make_sphere(const geometry::Topology& t, double radius, const Vec3& center,
                         const Mat3& turn, bool exact) {
   Body out;

@@ -290,7 +290,7 @@ TEST(FindContacts, FixedBodiesAreProbedButDoNotProbe) {
   }
 }
 
-/// The unit sphere drawn out to a rod with flat ends along x, half length a and half width b, then
+/// Unit sphere drawn out to a rod with flat ends along x, half length a and half width b, then
 /// bent round until its two ends face each other at the given distance.
 std::vector<Vec3> horseshoe(double a, double b, double opening) {
   const double round = (2 * a + opening) / (2 * kPi);  // radius of the middle line

@@ -28,7 +28,7 @@ TEST(DisjointSets, AreStoodForByTheirLowestNumber) {
   EXPECT_EQ(sets.find(2), 2);
 }
 
-/// The set of each number by spreading the lowest one until nothing changes.
+/// Set of each number by spreading the lowest one until nothing changes.
 std::vector<int> spread_lowest(int n, const std::vector<std::pair<int, int>>& pairs) {
   std::vector<int> lowest(n);
   for (int k = 0; k < n; ++k) lowest[k] = k;

@@ -12,7 +12,7 @@
 namespace acinus {
 namespace {
 
-/// The message of the error, "" if there is none.
+/// Message of the error, "" if there is none.
 std::string failure(const std::string& text, Dimension needed) {
   return test::fault_of([&] { parse_quantity(text, needed); });
 }

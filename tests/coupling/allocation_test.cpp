@@ -1,4 +1,4 @@
-/// A step asks for no memory once its buffers have their size.
+/// Test that a step asks for no memory once its buffers have their size.
 
 #include <gtest/gtest.h>
 
@@ -79,7 +79,7 @@ Count count_allocations(World& w, int warm_up, int n) {
   return count;
 }
 
-/// A nucleus pressed against one side of its cell, with links: all of it is at work.
+/// Nucleus pressed against one side of its cell, with links: all of it is at work.
 TEST(Allocation, NucleiAskForNoneEither) {
   World w = make_test_world({{Vec3::Zero()}, {Vec3(23, 0, 0)}}, 10, 42);
   w.params.dcm[0].nucleus = dcm::Nucleus{.size = 0.7, .link_young = 0.1};

@@ -22,7 +22,7 @@ Mat3 turn_by(const Vec3& turn) {
   return angle > 0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Mat3::Identity();
 }
 
-/// A beam at rest along x.
+/// Beam at rest along x.
 BeamEnds straight() {
   return {{Vec3(1, 2, 3), Vec3(1 + kBeam.length, 2, 3)}, {Mat3::Identity(), Mat3::Identity()}};
 }

@@ -1,4 +1,4 @@
-/// A sphere in a clump at rest is replaced by its two daughters, whose strength then rises.
+/// Division of a sphere in a clump at rest: two daughters replace it, whose strength then rises.
 
 #include "cbm/division.hpp"
 
@@ -58,7 +58,7 @@ World settled(World w) {
   return w;
 }
 
-/// A lone cell, or a clump around a cell about to divide, at mechanical rest.
+/// Lone cell, or a clump around a cell about to divide, at mechanical rest.
 World resting_clump(int count, double capsule_radius = 0) {
   UniformStream random(7, Purpose::kJitter, 0);
   std::vector<TestCell> cells;

@@ -20,7 +20,7 @@
 
 namespace acinus::coupling {
 
-/// A clump of n^3 cells, those of `deformable` as meshes, at rest in a capsule that compresses it.
+/// Clump of n^3 cells, those of `deformable` as meshes, at rest in a capsule that compresses it.
 inline World make_clump_world(int n, double distance, const std::function<bool(int)>& deformable) {
   std::vector<TestCell> cells;
   const double middle = 0.5 * (n - 1);

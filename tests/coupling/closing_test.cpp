@@ -13,7 +13,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// A shell just above a wall, pulled down so fast that a step of a minute would carry it through.
+/// Shell just above a wall, pulled down so fast that a step of a minute would carry it through.
 World falling_cell(Integrator integrator) {
   World w = make_test_world({{Vec3(0, 0, 12.3), true, Vec3(0, 0, -3)}}, 60, 162);
   contact::Plane floor;

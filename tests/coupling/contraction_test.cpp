@@ -15,7 +15,7 @@
 namespace acinus::coupling {
 namespace {
 
-/// A cell whose tension follows a course.
+/// Cell whose tension follows a course.
 World contracting_cell(std::vector<Schedule::Point> course) {
   World w = make_test_world({{Vec3(1, 2, 3)}}, 7, 42);
   w.params.motility.random = false;

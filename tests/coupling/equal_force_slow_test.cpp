@@ -1,4 +1,4 @@
-/// A deformable cell against a sphere under the same force as two of a kind: reported as measured,
+/// Deformable cell against a sphere under the same force as two of a kind: reported as measured,
 /// because the law of the interface is to be judged by it.
 
 #include <gtest/gtest.h>

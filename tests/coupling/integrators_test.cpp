@@ -1,4 +1,4 @@
-/// The three ways to take a step, on one stretched cell that relaxes in a liquid.
+/// Three ways to take a step, on one stretched cell that relaxes in a liquid.
 
 #include "coupling/step/controller.hpp"
 #include "coupling/step/step.hpp"
@@ -56,7 +56,7 @@ std::vector<Vec3> relaxed(Integrator integrator, double step, double end = kEnd)
   return nodes_of(w);
 }
 
-/// The end of a run with kStep halved so many times; every run is made once.
+/// End of a run with kStep halved so many times; every run is made once.
 const std::vector<Vec3>& end_of(Integrator integrator, int halvings) {
   static std::map<std::pair<Integrator, int>, std::vector<Vec3>> ends;
   std::vector<Vec3>& end = ends[{integrator, halvings}];
@@ -64,7 +64,7 @@ const std::vector<Vec3>& end_of(Integrator integrator, int halvings) {
   return end;
 }
 
-/// The limit of small steps, by Richardson extrapolation: its error is of second order.
+/// Limit of small steps, by Richardson extrapolation: its error is of second order.
 std::vector<Vec3> limit_of(Integrator integrator) {
   std::vector<Vec3> limit = end_of(integrator, 4);
   const std::vector<Vec3>& coarse = end_of(integrator, 3);
@@ -128,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Order,
                                          std::pair(Integrator::kExplicitEuler, 1.0),
                                          std::pair(Integrator::kNewton, 1.0)));
 
-/// The stretched cell with springs in series with dashpots, let go: the edges were stretched for so
+/// Stretched cell with springs in series with dashpots, released: the edges were stretched for so
 /// long a time that half of their tension is there.
 std::vector<Vec3> flowed(Integrator integrator, double step) {
   World w = stretched_cell(integrator, step);
@@ -198,8 +198,8 @@ TEST(ExplicitEuler, RejectedStepsAreTriedAgainHalfAsLong) {
   EXPECT_TRUE(all_finite(w));
 }
 
-/// A shorter step does not help a solve that needs more iterations than it may take; the second
-/// attempt may take twice as many, the third four times.
+/// Retries of a solve that needs more iterations than it may take: a shorter step does not help;
+/// the second attempt may take twice as many, the third four times.
 TEST(LinearlyImplicit, ASolveThatFailsGetsMoreIterations) {
   World w = make_test_world(
       {{Vec3(0, 0, 0), true, Vec3(0, 0, -3)}, {Vec3(0, 0, 23), true, Vec3::Zero()}}, 60, 162);

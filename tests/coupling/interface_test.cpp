@@ -76,7 +76,7 @@ TEST(Interface, ForceListAddsUpToTheForces) {
   EXPECT_LT((listed - summed).norm(), 1e-11 * size);
 }
 
-/// A linearly implicit step in which each model is solved alone.
+/// Linearly implicit step in which each model is solved alone.
 void step_partitioned(World& world, double step, Workspace& work) {
   assemble(world, step, work);
   for (std::size_t k = 0; k < work.rhs.size(); ++k)
@@ -158,7 +158,7 @@ TEST(Interface, ACalibratedSphereHardensUnderAnIndentationDeeperThanItsOverlap) 
   }
 }
 
-/// A deformable cell that indents a sphere by so much, um, without adhesion.
+/// Deformable cell that indents a sphere by so much, um, without adhesion.
 World indented_sphere(double depth) {
   World w = make_test_world({{Vec3::Zero()}, {Vec3(1, 2, 3).normalized() * 24, false}});
   w.params.dcm[0].adhesion = w.params.cbm[0].adhesion = 0;

@@ -1,4 +1,4 @@
-/// A scene that is turned or shifted as a whole does the same: no direction and no place of space
+/// Invariance of a scene that is turned or shifted as a whole: no direction and no place of space
 /// enters but through the meshes, which turn and shift with it.
 #include <gtest/gtest.h>
 

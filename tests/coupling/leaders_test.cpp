@@ -11,7 +11,7 @@ namespace {
 
 using Choice = std::vector<std::uint8_t>;
 
-/// A cell of 12 um at a distance, angle in degrees and height.
+/// Cell of 12 um at a distance, angle in degrees and height.
 PolarCell cell(double distance, double degrees, double height = 0) {
   return {distance, degrees * kPi / 180, height, 12, true, false};
 }

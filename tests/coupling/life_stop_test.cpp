@@ -1,4 +1,4 @@
-/// An order to stop that comes while cells divide, or while new meshes settle.
+/// Order to stop that comes while cells divide, or while new meshes settle.
 
 #include <gtest/gtest.h>
 

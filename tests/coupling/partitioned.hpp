@@ -1,5 +1,5 @@
 #pragma once
-/// The partitioned twin of the single solve: each model alone, interface forces exchanged until
+/// Partitioned twin of the single solve: each model alone, interface forces exchanged until
 /// they agree. Slower, and there to be compared with.
 
 #include <span>

@@ -96,7 +96,7 @@ void expect_same_ramp(const Ramp& a, const Ramp& b) {
   EXPECT_EQ((std::array{a.from, a.to, a.start, a.end}), (std::array{b.from, b.to, b.start, b.end}));
 }
 
-/// A cell has kept every bit of what belongs to it.
+/// Checks that a cell has kept every bit of what belongs to it.
 void expect_same_cell(State& now, const Cell& c, State& before, const Cell& d) {
   ASSERT_EQ(c.deformable, d.deformable);
   expect_same_ramp(volume_of(now, c), volume_of(before, d));

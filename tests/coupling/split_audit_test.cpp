@@ -1,4 +1,4 @@
-/// The daughters of dcm/shape/split judged by exact predicates that share no code with it.
+/// Daughters of dcm/shape/split judged by exact predicates that share no code with it.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -25,7 +25,7 @@ World make_block() {
   w.params.numerics.cg = {1e-12, 20000};
   return w;
 }
-/// The same with what only a state has that was stepped: last moves and contacts.
+/// Block of cells after three steps, with what only such a state has: last moves and contacts.
 World make_stepped_block() {
   World w = make_block();
   SizedWorkspace work(w);

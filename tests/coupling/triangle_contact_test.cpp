@@ -1,4 +1,4 @@
-/// A pair of cells under the law of Maugis-Dugdale, step by step.
+/// Pair of cells under the law of Maugis-Dugdale, step by step.
 
 #include <gtest/gtest.h>
 

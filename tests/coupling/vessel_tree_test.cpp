@@ -19,7 +19,7 @@ namespace {
 const TubeMaterial kSinusoid{0.6, 0.4, 1, 0, 0.1};
 constexpr double kVesselRadius = 4;
 
-/// A straight vessel from the origin along a direction, in equal parts.
+/// Straight vessel from the origin along a direction, in equal parts.
 geometry::Network straight_vessel(double length, int parts, const Vec3& direction = Vec3::UnitX()) {
   geometry::Network n;
   n.node = {Vec3::Zero(), length * direction};
@@ -35,7 +35,7 @@ struct Experiment {
   int parts = 1;
 };
 
-/// The tree in balance, by Newton's iteration with the matrix of the program, entry by entry.
+/// Tree in balance, by Newton's iteration with the matrix of the program, entry by entry.
 TreeState balance(VesselTree tree, const Experiment& x) {
   tree.anchored.assign(tree.n_node(), 0);
   TreeState s = at_rest(tree);
@@ -113,7 +113,7 @@ TEST(VesselTree, BendsUnderALoadInItsMiddleAsAClampedBeamDoes) {
   EXPECT_NEAR(s.node[2].z(), said, 1e-3 * said);
 }
 
-/// A beam bent by a moment into a full circle: rotations of 360 degrees in all.
+/// Beam bent by a moment into a full circle: rotations of 360 degrees in all.
 TEST(VesselTree, BendsIntoACircle) {
   const double length = 60;
   const int parts = 24;
@@ -127,7 +127,7 @@ TEST(VesselTree, BendsIntoACircle) {
   EXPECT_LT(s.node[1].norm(), 0.02 * length);
 }
 
-/// An elbow that is loaded across its plane: the far leg bends, the near leg bends and twists.
+/// Elbow that is loaded across its plane: the far leg bends, the near leg bends and twists.
 TEST(VesselTree, JointsCarryBendingAndTwist) {
   const double leg = 40, load = 1e-3;
   geometry::Network n;
@@ -158,7 +158,7 @@ TEST(VesselTree, HoldsWhatNothingElseHolds) {
   EXPECT_FALSE(make_tree(ring, kSinusoid, VesselAnchors::kEnds).has_ends());
 }
 
-/// A subworld has the vessels, but no nodes to move.
+/// Checks that a subworld has the vessels, but no nodes to move.
 TEST(VesselTree, LeavesVesselsWhereTheyAreWithoutAState) {
   const geometry::Network n = straight_vessel(60, 3);
   const VesselTree tree = make_tree(n, kSinusoid, VesselAnchors::kEnds);
@@ -169,7 +169,7 @@ TEST(VesselTree, LeavesVesselsWhereTheyAreWithoutAState) {
   EXPECT_EQ(vessels.network.node[2].z(), 3);
 }
 
-/// A cell that is pulled against the middle of a vessel.
+/// Cell that is pulled against the middle of a vessel.
 World cell_on_vessel(bool deformable, const TubeMaterial& material, double pull, bool flexible) {
   const double length = 48;
   World w =
@@ -279,8 +279,8 @@ TEST(VesselTree, BendsUnderACellAsMuchAsItPulls) {
   EXPECT_NEAR(largest_displacement(w.params.tree, w.state.tree), -lowest, 1e-9);
 }
 
-/// The stiffer the tubes, the less they move, and the nearer cells are to where rigid vessels hold
-/// them: E of the wall that yields is the same in both.
+/// Rigid limit: the stiffer the tubes, the less they move, and the nearer cells are to where rigid
+/// vessels hold them: E of the wall that yields is the same in both.
 TEST(VesselTree, StiffTubesAreRigidVessels) {
   for (const bool deformable : {true, false}) {
     World rigid = cell_on_vessel(deformable, kSinusoid, 0.1, false);

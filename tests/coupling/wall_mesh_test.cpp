@@ -73,7 +73,7 @@ TEST(WallMesh, FallsBackOnConesWhereThereIsNoWall) {
   EXPECT_EQ(contact::gap_to_wall(v, 3, x, 10).gap, contact::gap_to_segment(v.network, 3, x).gap);
 }
 
-/// A cell on the straight part of a vessel, pressed down.
+/// Cell on the straight part of a vessel, pressed down.
 Vec3 force_on_cell(bool deformable, bool mesh, double depth) {
   World w = make_test_world({{Vec3(-25, 0, 12 + 5.6 - depth), deformable}});
   w.params.boundary.vessels = vessels_of(fork(), mesh);

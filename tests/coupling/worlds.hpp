@@ -103,7 +103,7 @@ inline bool run_until(World& world, Workspace& work, double time) {
   return true;
 }
 
-/// A world with the forces of its contacts as they are reported, without a step.
+/// World with the forces of its contacts as they are reported, without a step.
 struct Observed {
   World world;
   SizedWorkspace work{world};

@@ -1,4 +1,4 @@
-/// A daughter is at rest in the shape of her birth, but for the stretch of her mother, and forgets
+/// Shape of birth: a daughter is at rest in it, but for the stretch of her mother, and forgets
 /// that shape in time.
 
 #include <gtest/gtest.h>

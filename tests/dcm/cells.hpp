@@ -97,7 +97,7 @@ double worst_slope_error(Cells& c, std::size_t lane, const Energy& energy) {
   return worst;
 }
 
-/// The lane of make_deformed_cells that holds no cell.
+/// Lane of make_deformed_cells that holds no cell.
 inline constexpr std::size_t kNoCell = 3;
 
 /// Cells at rest, one a lane, of the given radii.
@@ -140,7 +140,7 @@ inline Cells make_deformed_cells(int n_node = 162) {
   return out;
 }
 
-/// A term of the cell's own mechanics, with its energy and the energy's plain twin.
+/// Term of the cell's own mechanics, with its energy and the energy's plain twin.
 struct Term {
   const char* name;
   void (*add)(const Params&, const GroupView&, solve::System&);
@@ -181,7 +181,7 @@ inline const std::vector<Term>& all_terms() {
   return terms;
 }
 
-/// The matrices of all lanes, column by column through the operator. Lanes do not meet without
+/// Matrices of all lanes, column by column through the operator. Lanes do not meet without
 /// links, so one product serves the same column of all of them.
 inline std::vector<Eigen::MatrixXd> lane_matrices(const Cells& c) {
   solve::Operator op;

@@ -1,4 +1,4 @@
-/// The areas that contact points stand for.
+/// Areas that contact points stand for.
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ TEST(ContactAreas, StretchIsPresentOverReferenceArea) {
               1.44 * (2 * own + other) / (own + other), 1e-13);
 }
 
-/// A cube with n by n squares a side.
+/// Cube with n by n squares a side.
 geometry::Surface make_cube(int n) {
   geometry::Surface s;
   auto number = [&s](const Vec3& x) {

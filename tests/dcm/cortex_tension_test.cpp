@@ -85,7 +85,7 @@ TEST(CortexTension, TurnsWithTheCell) {
       EXPECT_LE((turned.force(l, i) - q * c.force(l, i)).norm(), 1e4 * kEps * c.largest_force(l));
 }
 
-/// A ring of three times the tension about an axis askew.
+/// Ring of three times the tension about an axis askew.
 Params ringed() {
   Params p = contractile();
   p.ring = ContractileRing{};

@@ -16,7 +16,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr std::size_t kLane = 2;
 
-/// A cell at rest but for one corner of one edge, which is turned about the edge until the normals
+/// Cell at rest but for one corner of one edge, which is turned about the edge until the normals
 /// of its faces are this far apart, rad; more than pi: through each other.
 Cells make_folded(double theta) {
   Cells c = make_rest_cells(geometry::shared_icosphere(42), std::vector<double>(kLanes, 10));
@@ -69,7 +69,7 @@ TEST(Fold, OfAThinCortexIsStoppedByContact) {
   EXPECT_LT(energy(176), 1);
 }
 
-/// A cell at rest but for one corner of one face, which is moved toward the opposite edge until the
+/// Cell at rest but for one corner of one face, which is moved toward the opposite edge until the
 /// face has this share of its area.
 Cells make_collapsed(double share) {
   Cells c = make_rest_cells(geometry::shared_icosphere(42), std::vector<double>(kLanes, 10));

@@ -24,7 +24,7 @@ const geometry::Topology& tetrahedron() {
   return t;
 }
 
-/// A tetrahedron cell of radius 1 blown up by a factor; rest edge and circumradius.
+/// Tetrahedron cell of radius 1 blown up by a factor; rest edge and circumradius.
 struct BlownTetrahedron {
   Cells c = make_rest_cells(tetrahedron(), {1, 2});
   double edge = std::cbrt(4.0 / 3 * kPi * 6 * std::sqrt(2.0)), around = std::sqrt(3.0 / 8) * edge;

@@ -99,8 +99,8 @@ inline NucleatedCells make_nucleated(const Params& params, const std::vector<dou
   return c;
 }
 
-/// The same, with the points of every cell sheared, turned and shaken by a tenth of an edge of the
-/// nucleus.
+/// Cells as above, with the points of every cell sheared, turned and shaken by a tenth of an edge
+/// of the nucleus.
 inline NucleatedCells make_deformed_nucleated(const Params& params,
                                               const std::vector<double>& radius, int n_node = 162) {
   NucleatedCells c = make_nucleated(params, radius, n_node);
@@ -118,7 +118,7 @@ inline NucleatedCells make_deformed_nucleated(const Params& params,
   return c;
 }
 
-/// The matrix of one lane, column by column.
+/// Matrix of one lane, column by column.
 inline Eigen::MatrixXd matrix_of(const NucleatedCells& c, std::size_t lane) {
   solve::Operator op;
   op.prepare(c.system);

@@ -284,7 +284,7 @@ double sharpest(const geometry::Topology& topology, const Split& split) {
   return least;
 }
 
-/// A lens halved across its edge at 35 degrees: one side of the rim is a wedge.
+/// Lens halved across its edge at 35 degrees: one side of the rim is a wedge.
 std::vector<Vec3> make_lens(const geometry::Topology& topology) {
   std::vector<Vec3> node;
   for (const Vec3& x : topology.rest)

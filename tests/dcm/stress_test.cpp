@@ -19,7 +19,7 @@ struct Blown {
   double tension, pressure;  ///< nN/um and kPa
 };
 
-/// A sphere cell blown up uniformly: mean node tension, and the pressure that holds it (virtual
+/// Sphere cell blown up uniformly: mean node tension, and the pressure that holds it (virtual
 /// work of swelling, sum f . x = -3 p V).
 Blown blow_up(int n_node, double radius, double stretch, const Params& p) {
   Cells c = make_rest_cells(geometry::shared_icosphere(n_node), {radius / stretch});

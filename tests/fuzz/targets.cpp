@@ -177,7 +177,7 @@ void write_studies(const std::string& folder) {
   copy_all(test::source_path("runs/studies"), ".json", folder);
 }
 
-/// A fresh folder beside a file that holds it under another name.
+/// Fresh folder beside a file that holds it under another name.
 std::string folder_with(const std::string& path, const std::string& name) {
   const std::string folder = fs::path(path).replace_extension(".folder").string();
   fs::remove_all(folder);

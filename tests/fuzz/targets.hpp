@@ -16,7 +16,7 @@ struct Target {
   void (*read)(const std::string& path);
   /// Valid files to begin with, written into a folder.
   void (*write_seeds)(const std::string& folder);
-  /// The program reads it in a process of its own, since its library crashes on some bytes.
+  /// True if the program reads it in a process of its own, since its library crashes on some bytes.
   bool guarded = false;
 };
 

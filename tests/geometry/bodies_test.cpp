@@ -19,7 +19,7 @@
 namespace acinus::geometry {
 namespace {
 
-/// A body, outward; two triangles a side, those at low x the fifth.
+/// Body, outward; two triangles a side, those at low x the fifth.
 Surface body(const Vec3& low, const Vec3& size) {
   Surface s = make_box(size);
   for (Vec3& x : s.node) x += low;

@@ -14,7 +14,7 @@
 namespace acinus::geometry {
 namespace {
 
-/// A point, then the corners of a triangle.
+/// Point, then the corners of a triangle.
 using Case = std::array<Vec3, 4>;
 
 struct Answer {

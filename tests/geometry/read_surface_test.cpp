@@ -56,7 +56,7 @@ void expect_measures_of_file(const std::string& path) {
   for (const Surface& body : bodies) EXPECT_NO_THROW(make_topology(body));
 }
 
-/// The first of two bodies is closed, the second is not and gets named.
+/// Two bodies: the first is closed, the second is not and gets named.
 void expect_second_body_refused(const std::string& path) {
   std::vector<Surface> bodies = read_surfaces(path, 1e6);
   ASSERT_EQ(bodies.size(), 2u);

@@ -11,7 +11,7 @@
 namespace acinus::geometry {
 namespace {
 
-/// An L of two boxes, depth 1: from (0,0) over (3,0), (3,1), (1,1), (1,3) to (0,3).
+/// L of two boxes, depth 1: from (0,0) over (3,0), (3,1), (1,1), (1,3) to (0,3).
 Surface make_corner() {
   const std::array<std::array<double, 2>, 6> outline = {
       {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}};

@@ -39,7 +39,7 @@ class TempFolder {
   std::filesystem::path path_;
 };
 
-/// The message with which a file of closed surfaces is refused.
+/// Message with which a file of closed surfaces is refused.
 inline std::string refusal(const std::string& path) {
   return test::message_of([&] { read_closed_surfaces(path, 1); });
 }

@@ -34,7 +34,7 @@ inline void put_text(hid_t set, const char* name, const std::vector<std::string>
   H5Tclose(type);
 }
 
-/// A filter that is known where the file is written, and taken out of the library afterwards.
+/// Filter that is known where the file is written, and taken out of the library afterwards.
 inline constexpr H5Z_filter_t kForeign = 32000;
 inline std::size_t keep_bytes(unsigned, std::size_t, const unsigned*, std::size_t n, std::size_t*,
                               void**) {

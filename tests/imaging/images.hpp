@@ -12,7 +12,7 @@
 
 namespace acinus::imaging {
 
-/// The label of every voxel by its centre, um.
+/// Label of every voxel by its centre, um.
 inline LabelImage make_image(const Voxel& size, const Vec3& voxel,
                              const std::function<Label(const Vec3&)>& label) {
   LabelImage image;
@@ -38,7 +38,7 @@ std::string image_bytes(const LabelImage& image, bool swap = false) {
   return out;
 }
 
-/// The header of NIfTI-1 [nifti1.h], little-endian, with the data behind it.
+/// Header of NIfTI-1 [nifti1.h], little-endian, with the data behind it.
 inline std::string nifti(const LabelImage& image, std::int16_t units, float slope = 0) {
   std::string h(352, '\0');
   const auto put = [&](std::size_t at, auto value) { std::memcpy(&h[at], &value, sizeof(value)); };
@@ -58,7 +58,7 @@ inline std::string nifti(const LabelImage& image, std::int16_t units, float slop
   return h + image_bytes<std::uint16_t>(image);
 }
 
-/// The message with which an image is refused.
+/// Message with which an image is refused.
 inline std::string refusal(const std::string& path, const ReadImage& how = {},
                            Exit code = Exit::kBadInput) {
   return test::message_of([&] { read_image(path, how); }, code);

@@ -109,7 +109,7 @@ TEST(ImportImage, RefusesImagesWithoutCells) {
                   "all voxels are 0, the background");
 }
 
-/// The two balls with 1 added to every label: 1 is outside.
+/// Two balls with 1 added to every label: 1 is outside.
 LabelImage raised(const std::vector<LabelledBall>& all) {
   LabelImage image = balls(all);
   for (Label& l : image.label) ++l;

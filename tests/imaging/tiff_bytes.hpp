@@ -17,7 +17,7 @@ struct TiffHow {
   std::vector<int> slices{};                      ///< which, in the order of pages; empty: all
 };
 
-/// A classic TIFF of 16 bits a pixel: of every page its data, then its directory.
+/// Classic TIFF of 16 bits a pixel: of every page its data, then its directory.
 class TiffWriter {
  public:
   TiffWriter(const LabelImage& image, const TiffHow& how) : image_(image), how_(how) {}

@@ -118,8 +118,8 @@ TEST(Checkpoint, DamageAnywhereIsNoticedOrHarmless) {
                   "Neither");
 }
 
-/// The list of arrays has no checksum of its own: one that names an array twice, or none that can
-/// be, is damage.
+/// Damage of the list of arrays, which has no checksum of its own: one that names an array twice,
+/// or none that can be, is damage.
 TEST(Checkpoint, DamagedListOfArraysIsDamage) {
   const Folder folder("checkpoint_names");
   for (const std::string list : {"time\ntime\n", "time\ntime/x\n", "/\n", "\n"}) {

@@ -30,7 +30,7 @@ Handle shape_of(const std::vector<hsize_t>& extent) {
           H5Sclose};
 }
 
-/// A file with one dataset /a and one attribute "a" of the root, neither of them written.
+/// File with one dataset /a and one attribute "a" of the root, neither of them written.
 struct Odd {
   explicit Odd(const std::string& name, hid_t type, const Handle& space) : path(name) {
     File file = File::create(path, Format::kEarliest);

@@ -75,12 +75,12 @@ inline Frame changing_frame(int k) {
   return make_frame(k, kBody[k % 8], kSphere[k % 8]);
 }
 
-/// A name in the folder of temporary files.
+/// Name in the folder of temporary files.
 inline std::string path(const char* name) {
   return (std::filesystem::temp_directory_path() / (name + std::to_string(getpid()))).string();
 }
 
-/// A fresh folder for one test, removed at the end.
+/// Fresh folder for one test, removed at the end.
 struct Folder {
   explicit Folder(const std::string& name)
       : path((std::filesystem::temp_directory_path() / (name + "_" + std::to_string(getpid())))

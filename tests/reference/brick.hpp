@@ -1,5 +1,5 @@
 #pragma once
-/// A box of triangles, to test closed surfaces with.
+/// Box of triangles, to test closed surfaces with.
 
 #include <array>
 

@@ -52,7 +52,7 @@ inline std::vector<CellShape> cell_shapes() {
           {"horseshoe", bent(2.4, 1.2, 0.5), false}};
 }
 
-/// The shape with the volume of the inflated sphere of this radius, its mesh turned beforehand.
+/// Shape with the volume of the inflated sphere of this radius, its mesh turned beforehand.
 inline geometry::Surface make_cell(const CellShape& shape, const geometry::Topology& topology,
                                    double radius, const Mat3& rotation, const Vec3& center) {
   geometry::Surface out;

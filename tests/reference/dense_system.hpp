@@ -1,5 +1,5 @@
 #pragma once
-/// The matrix of a System entry by entry, from what each element is said to be. The index of an
+/// Matrix of a System entry by entry, from what each element is said to be. The index of an
 /// unknown is its place in the [row][3][lane] arrays. Everything is worked out in double from the
 /// numbers as stored.
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The exact force that compresses a closed elastic membrane between two plates without friction:
+/// Exact force that compresses a closed elastic membrane between two plates without friction:
 /// the continuum limit of a deformable cell without bending, solved on its meridian.
 
 #include <Eigen/Dense>
@@ -10,7 +10,7 @@
 
 namespace acinus::reference {
 
-/// A sphere that is at rest at the radius.
+/// Sphere that is at rest at the radius.
 struct PressedMembrane {
   double radius = 12;         ///< um
   double spring = 0;          ///< nN/um, k_s of a triangular net
@@ -88,7 +88,7 @@ inline void march(const PressedMembrane& m, const Unknowns& u, bool free, double
 
 }  // namespace pressed
 
-/// The membrane when all that was within the angle `contact` of the pole lies on the plate.
+/// Membrane when all that was within the angle `contact` of the pole lies on the plate.
 /// Newton on: the equator stands upright; pressure and tension follow from volume and area.
 inline Pressed press_membrane(const PressedMembrane& m, double contact, Eigen::Vector3d& guess) {
   using namespace pressed;

@@ -1,4 +1,4 @@
-/// A user of the library and a user of a scene who give nothing get the same constants.
+/// Equal defaults for a user of the library and a user of a scene who give nothing.
 
 #include <gtest/gtest.h>
 

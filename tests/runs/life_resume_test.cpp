@@ -10,7 +10,7 @@
 namespace acinus::runs {
 namespace {
 
-/// A spheroid whose cells divide every two hours: 42 nodes, random motility, some cells asleep.
+/// Spheroid whose cells divide every two hours: 42 nodes, random motility, some cells asleep.
 constexpr const char* kSpheroid = R"({
   "seed": 5,
   "model": "dcm",

@@ -8,7 +8,7 @@
 namespace acinus::runs {
 namespace {
 
-/// A cell between two plates that close, or a spheroid that divides, with all of the inside on.
+/// Cell between two plates that close, or a spheroid that divides, with all of the inside on.
 constexpr const char* kBetweenPlates = R"({
   "model": "dcm", "experiment": "plates",
   "time": {"end": "60 min", "step": "30 s", "tolerance": "0.05 um"},

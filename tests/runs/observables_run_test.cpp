@@ -11,7 +11,7 @@
 namespace acinus::runs {
 namespace {
 
-/// A small lobule of spheres that divide every two hours, with leaders.
+/// Small lobule of spheres that divide every two hours, with leaders.
 constexpr const char* kLobule = R"({
   "seed": 4,
   "experiment": "lobule",

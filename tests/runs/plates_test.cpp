@@ -1,4 +1,4 @@
-/// The shipped scene of a cell between plates, against the exact force on the membrane of its net.
+/// Shipped scene of a cell between plates, against the exact force on the membrane of its net.
 
 #include <gtest/gtest.h>
 

@@ -98,7 +98,7 @@ class Process {
   std::string text_;
 };
 
-/// A fresh folder per test, removed when the test is done.
+/// Fresh folder per test, removed when the test is done.
 class ProgramTest : public testing::Test {
  protected:
   ProgramTest() {
@@ -143,7 +143,7 @@ class ProgramTest : public testing::Test {
     return names;
   }
 
-  /// The state, the counters and every frame of two runs agree to the last bit.
+  /// Compares two runs: state, counters and every frame must agree to the last bit.
   void expect_same(const std::string& a, const std::string& b) const;
 
   fs::path folder_;
@@ -155,7 +155,7 @@ inline std::vector<io::Frame> read_frames(const io::RunReader& run) {
   return frames;
 }
 
-/// The frames of a are the first frames of b, bit for bit.
+/// Checks that the frames of a are the first frames of b, bit for bit.
 inline void expect_first_frames(const std::vector<io::Frame>& a, const std::vector<io::Frame>& b,
                                 const std::string& what) {
   ASSERT_LE(a.size(), b.size()) << what;
@@ -187,7 +187,7 @@ inline void ProgramTest::expect_same(const std::string& a, const std::string& b)
   expect_first_frames(read_frames(x), read_frames(y), a + " " + b);
 }
 
-/// A DCM cell and a CBM cell that touch, 42 nodes, 8 minutes.
+/// DCM cell and CBM cell that touch, 42 nodes, 8 minutes.
 inline constexpr const char* kPair = R"({
   "seed": 3,
   "time": {"end": "8 min", "step": "30 s"},
@@ -198,7 +198,7 @@ inline constexpr const char* kPair = R"({
   "output": {"every": "2 min"}
 })";
 
-/// The same with start-up, in which two neighbours of each model meet.
+/// Touching cells with start-up, in which two neighbours of each model meet.
 inline constexpr const char* kGrowing = R"({
   "seed": 3,
   "time": {"end": "6 min", "step": "30 s"},

@@ -11,8 +11,8 @@ class RunErrors : public ProgramTest {
  protected:
   RunErrors() { write("pair.json", kPair); }
 
-  /// The scene with one change is refused by run and by check, with all of these words, and run
-  /// makes no folder.
+  /// Checks that run and check refuse the scene with one change, with all of these words, and that
+  /// run makes no folder.
   void expect_refused(const Words& changes, const Words& parts, int code = 2) const {
     Words checked{"check", "pair.json"}, ran = run_words("pair.json", "refused");
     for (const std::string& change : changes)

@@ -1,4 +1,4 @@
-/// The zoom: what its regions and their motion need of a scene.
+/// Rules of the zoom: what its regions and their motion need of a scene.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@ namespace acinus::runs {
 namespace {
 using namespace scene_texts;
 
-/// A clump of four cells with these regions, and more blocks.
+/// Clump of four cells with these regions, and more blocks.
 std::string zoomed(const std::string& regions, const std::string& more = R"("moving_zoom": {})") {
   return R"({"time": {"end": "1 h"}, "cell_types": {"a": {"radius": "12 um"}}, "cells": {"source": "clump", "count": 4, )"
          R"("model": "zoom"}, "zoom": [)" +

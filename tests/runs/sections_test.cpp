@@ -19,7 +19,7 @@ namespace {
 /// Round-off of lengths of up to some hundred micrometres.
 constexpr double kCutRoundOff = 1e-11;
 
-/// A closed box, 12 triangles.
+/// Closed box, 12 triangles.
 struct Brick {
   geometry::Surface surface;
   contact::SurfaceBody body;

@@ -7,7 +7,7 @@ namespace {
 
 using StartOverlap = ProgramTest;
 
-/// A clump of cells anywhere in their cycle, so up to a quarter wider than their places.
+/// Clump of cells anywhere in their cycle, so up to a quarter wider than their places.
 constexpr const char* kAnyAge = R"({
   "time": {"end": "1 min", "step": "30 s"},
   "cell_types": {"tumour": {"dcm": {"nodes": 42}, "cycle": {"time": "24 h", "start": "random"}}},

@@ -142,7 +142,7 @@ TEST(StateFile, RefusesArraysThatAreMissingOrOfAnotherLength) {
     }
 }
 
-/// The data of a state with one array changed.
+/// Data of a state with one array changed.
 template <class T>
 io::CheckpointData with(const coupling::State& state, const std::string& name, std::size_t at,
                         T value) {

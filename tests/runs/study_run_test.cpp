@@ -65,7 +65,7 @@ bool await_file(const fs::path& file) {
   return false;
 }
 
-/// The first process that another one started.
+/// First process that another one started.
 pid_t child_of(pid_t parent) {
   std::ifstream children("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) +
                          "/children");

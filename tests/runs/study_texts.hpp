@@ -12,7 +12,7 @@
 
 namespace acinus::runs {
 
-/// A study of two spheres; `more` stands after its variants.
+/// Study of two spheres; `more` stands after its variants.
 inline std::string text_with(const std::string& more, const std::string& variants = R"(
     "slow": { "set": { "motility.grid": "60 s" } },
     "fast": { "extends": "slow", "set": { "motility.grid": "30 s" }, "seeds": [7] })") {

@@ -1,4 +1,4 @@
-/// The record of a run of the service.
+/// Record of a run of the service.
 
 #include "service/serve/job.hpp"
 

@@ -108,7 +108,7 @@ TEST(ReportThin, KeepsEndsAndPeaks) {
   EXPECT_EQ(quantile({0, 1, 2, 3}, 0.5), 1.5);
 }
 
-/// A run folder with so many frames.
+/// Run folder with so many frames.
 void write_run(const std::string& folder, int frames, int bodies) {
   fs::create_directories(folder);
   io::RunFile file = io::RunFile::create(folder + "/run.vtkhdf", {{"version", "x </script>"}});
@@ -116,7 +116,7 @@ void write_run(const std::string& folder, int frames, int bodies) {
   file.close();
 }
 
-/// The data of a page as its script reads it.
+/// Data of a page as its script reads it.
 Json data_of(const std::string& page) {
   const std::string text = io::read_text_file(page);
   const std::string begin = "id=\"data\">";

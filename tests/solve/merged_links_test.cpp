@@ -72,7 +72,7 @@ TEST(MergedLinks, FaceAndSphereBecomeThreePairsAndThreeSprings) {
     }
 }
 
-/// A sum of matrices, and of the largest entries of what was added.
+/// Sum of matrices, and of the largest entries of what was added.
 struct Sum {
   Mat3 value = Mat3::Zero();
   double size = 0;
@@ -412,7 +412,7 @@ TEST(MergedProduct, PreparingForgetsTheMerge) {
   }
 }
 
-/// A solve, and whether it left products in float merged.
+/// Solved tissue, with a flag: products in float were left merged.
 struct SolvedTissue {
   System system = make_tissue(88);
   std::vector<double> rhs = random_vector_of(system, 89), x = std::vector<double>(rhs.size());

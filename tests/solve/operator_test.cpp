@@ -21,7 +21,7 @@ using reference::kEps;
 template <class T>
 constexpr double kEpsOf = static_cast<double>(std::numeric_limits<T>::epsilon());
 
-/// The same claim for both number types.
+/// Fixture of claims about both number types.
 template <class T>
 class OperatorOf : public testing::Test {};
 using NumberTypes = testing::Types<double, float>;
@@ -197,7 +197,7 @@ TEST(Operator, ElementsAreSemiDefiniteAsStored) {
   }
 }
 
-/// The 3x3 diagonal blocks of everything but the rank-one terms, made a little stiffer.
+/// Blocks of 3x3 on the diagonal, of everything but the rank-one terms, made a little stiffer.
 Eigen::MatrixXd stiffened_blocks(const System& s) {
   Eigen::MatrixXd all = reference::make_dense_elements(s);
   reference::add_medium(all, s);

@@ -96,7 +96,7 @@ struct Clusters {
   }
 };
 
-/// The part of a displacement that no rigid motion explains, by least squares.
+/// Part of a displacement that no rigid motion explains, by least squares.
 double distance_from_rigid(const Clusters& c, const std::vector<double>& move, int k) {
   std::vector<int> cell;
   for (int i = 0; i < 13; ++i)

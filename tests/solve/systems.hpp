@@ -1,5 +1,5 @@
 #pragma once
-/// A random positive definite system with everything in it.
+/// Random positive definite system with everything in it.
 
 #include <algorithm>
 #include <vector>
@@ -54,7 +54,7 @@ inline PointLink make_point_link(Point a, Point b, const Vec3& normal, double st
 class Places {
  public:
   Places(const System& s, UniformStream& random) : s_(s), random_(random) {}
-  /// A new contact: no contact names a point twice.
+  /// Starts a new contact: no contact names a point twice.
   void start() { used_.clear(); }
   Point point() {
     for (;;) {
@@ -165,7 +165,7 @@ inline System keep_inner(System s) {
   return s;
 }
 
-/// A system of which one kind of element or contact is left.
+/// System of which one kind of element or contact is left.
 struct Alone {
   const char* kind;
   System system;

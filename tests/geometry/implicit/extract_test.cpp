@@ -27,7 +27,7 @@ struct Ball {
   double radius, size;
 };
 
-/// A union of bodies about these balls, each a part.
+/// Union of bodies about these balls, each a part.
 /// @param distance  um, to a part
 Shape union_of(const std::vector<Ball>& ball, std::function<double(const Vec3&, int)> distance) {
   Shape shape;
@@ -108,7 +108,7 @@ TEST(ExtractZero, IsClosedWhereSizesDiffer) {
   }
 }
 
-/// A thick shell loses its inner wall, a ball beside it nothing.
+/// Cavities: a thick shell loses its inner wall, a ball beside it nothing.
 TEST(LeaveOutCavities, KeepsWhatFacesOutward) {
   const std::vector<Ball> two{{Vec3::Zero(), 2, 0.4}, {Vec3(5, 0, 0), 1, 0.4}};
   const Shape shape = union_of(two, [&two](const Vec3& x, int k) {

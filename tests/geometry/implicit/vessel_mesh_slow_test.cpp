@@ -13,7 +13,7 @@ namespace {
 
 constexpr unsigned kAtOnce = 20;
 
-/// A hundred networks, some of a thousand segments, so many to a test.
+/// Drawn networks, a hundred, some of a thousand segments, so many to a test.
 class RandomNetworks : public testing::TestWithParam<unsigned> {};
 
 TEST_P(RandomNetworks, HaveSoundMeshes) {

@@ -91,7 +91,7 @@ TEST(VesselMesh, CrossingVesselsStayApart) {
   EXPECT_TRUE(m.is_as_expected());
 }
 
-/// A hair apart: only the triangles there become small. Beside a short segment there is no gap.
+/// Narrow gap: only the triangles there become small. Beside a short segment there is no gap.
 TEST(VesselMesh, NearlyTouchingVesselsStayApart) {
   for (const double gap : {0.5, 0.2}) {
     const geometry::Network n{{Vec3(-10, 0, 0), Vec3(10, 0, 0), Vec3(0, -10, 4 + gap),
@@ -145,7 +145,7 @@ TEST(VesselMesh, VesselsThatLeaveOneNodeStayApart) {
       }
 }
 
-/// A cone is cut where it gets thinner: where it is thick its triangles are larger.
+/// Cut of a cone where it gets thinner: where it is thick its triangles are larger.
 TEST(VesselMesh, PiecesOfAConeHaveTheirOwnSize) {
   const geometry::Network n{{Vec3(0, 0, 0), Vec3(60, 0, 0)}, {{0, 1}}, {{1, 20}}};
   const VesselPieces pieces = cut_vessels(n, 1.2);
