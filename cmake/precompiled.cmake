@@ -12,6 +12,8 @@ set(acinus_common_headers
   <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <numeric> <optional> <set> <span> <string>
   <utility> <vector>)
 
+set(acinus_light_options $<$<CONFIG:Release>:-O1>)
+
 # acinus_make_precompiled(name HEADERS... [LINK targets...] [OPTIONS flags...]): an object library that holds no code, only the
 # precompiled header. Who reuses it must have the same flags.
 function(acinus_make_precompiled name)
@@ -33,6 +35,7 @@ if(ACINUS_PRECOMPILE)
     list(PREPEND CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros)
   endif()
   acinus_make_precompiled(acinus_common HEADERS ${acinus_common_headers})
+  acinus_make_precompiled(acinus_light HEADERS ${acinus_common_headers} OPTIONS ${acinus_light_options})
 endif()
 
 # acinus_precompile(targets...): with the header of the libraries.
@@ -40,6 +43,17 @@ function(acinus_precompile)
   foreach(target ${ARGN})
     if(ACINUS_PRECOMPILE)
       target_precompile_headers(${target} REUSE_FROM acinus_common)
+    endif()
+  endforeach()
+endfunction()
+
+# acinus_light(targets...): code that reads, arranges and writes. It computes nothing that a run waits for, and compiles in
+# two thirds of the time with fewer optimisations.
+function(acinus_light)
+  foreach(target ${ARGN})
+    target_compile_options(${target} PRIVATE ${acinus_light_options})
+    if(ACINUS_PRECOMPILE)
+      target_precompile_headers(${target} REUSE_FROM acinus_light)
     endif()
   endforeach()
 endfunction()
