@@ -17,12 +17,15 @@ CurvedTriangle make_curved_triangle(const std::array<Vec3, 3>& corner, double cu
           std::clamp(curvature, -limit, limit)};
 }
 
-FittedSphere fit_sphere(const CurvedTriangle& t, double curvature) {
+SphericalCap cap_of(const CurvedTriangle& t) {
+  return {t.circumcenter, t.normal, t.circumradius, t.curvature};
+}
+
+FittedSphere fit_sphere(const SphericalCap& cap, double curvature) {
   ACINUS_ASSERT(curvature > 0.0);
-  const double radius = 1.0 / curvature;
-  const double height2 = (radius - t.circumradius) * (radius + t.circumradius);
-  // Round-off of a hemisphere is no hole.
-  return {t.circumcenter - std::sqrt(std::max(0.0, height2)) * t.normal, radius};
+  const double radius = std::max(1.0 / curvature, cap.rim_radius);
+  const double height2 = (radius - cap.rim_radius) * (radius + cap.rim_radius);
+  return {cap.middle - std::sqrt(height2) * cap.normal, radius};
 }
 
 std::vector<CurvedTriangle> make_curved_triangles(std::span<const Vec3> node,

@@ -23,14 +23,24 @@ struct CurvedTriangle {
 /// sphere through the corners has, becomes 1/circumradius.
 CurvedTriangle make_curved_triangle(const std::array<Vec3, 3>& corner, double curvature);
 
-/// Sphere through the three corners of a triangle, um.
+/// Spherical cap: the surface of a triangle's sphere above it, or the surface of an object around
+/// the place that is nearest to a triangle.
+struct SphericalCap {
+  Vec3 middle;            ///< um, centre of the rim; of an object, the place on its surface
+  Vec3 normal;            ///< unit, outward
+  double rim_radius = 0;  ///< um, at most the radius of the sphere
+  double curvature = 0;   ///< 1/um: 0 flat, negative of a hollow surface
+};
+SphericalCap cap_of(const CurvedTriangle& t);
+
+/// Sphere of a cap, um.
 struct FittedSphere {
   Vec3 center;
   double radius;
 };
-/// Sphere of a triangle with the given curvature, 1/um, in place of its own.
-/// @pre 0 < curvature <= 1/circumradius (asserted)
-FittedSphere fit_sphere(const CurvedTriangle& t, double curvature);
+/// Sphere of a cap with the given curvature, 1/um, in place of its own; at most that of a hemisphere.
+/// @pre curvature > 0 (asserted)
+FittedSphere fit_sphere(const SphericalCap& cap, double curvature);
 
 /// Curved triangles of a closed surface. The mean curvature of each, 1/um, is the mean over its
 /// corners of the discrete Laplace-Beltrami operator (geometry::compute_mean_curvature), with the

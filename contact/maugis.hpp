@@ -40,8 +40,22 @@ struct MaugisState {
 /// @pre lambda > 0, a >= 0 (asserted)
 MaugisState maugis_state(double lambda, double a);
 
+/// Eq. (16) in A and H = sqrt(C^2 - A^2): regular at A = 0.
+struct MaugisClosure {
+  double value;  ///< 1 on the curve; grows with H
+  double by_h, by_a;
+};
+MaugisClosure evaluate_closure(double lambda, double a, double h);
+
+/// State at a known solution A, H of Eq. (16).
+MaugisState maugis_state(double lambda, double a, double h);
+
 /// Derivative d approach/dA along the curve, where H follows A through Eq. (16).
 double maugis_approach_slope(double lambda, double a);
+
+/// True if the contact branch ends at A > 0, where the approach is least: lambda above about 0.9.
+/// Otherwise it goes on to A = 0 and to the cohesive ring alone.
+bool maugis_turns(double lambda);
 
 /// State of least load over all A (pull-off at fixed load): -2 for lambda -> 0 (DMT), -3/2 for
 /// large lambda (JKR).
@@ -55,6 +69,9 @@ struct MaugisPoint {
   double force;            ///< P, positive = repulsive
 };
 MaugisPoint maugis_at_radius(const MaugisPair& pair, double contact_radius);
+
+/// Contact radius a at the end of the contact branch, um: 0 where it does not turn.
+double maugis_turning_radius(const MaugisPair& pair);
 
 /// Adhesive stress of the ring at radius r, kPa, negative = attractive, Eq. (14): -(sigma0/pi)
 /// arccos((2 a^2 - c^2 - r^2)/(c^2 - r^2)) for r < a, -sigma0 for a <= r <= c, 0 beyond.

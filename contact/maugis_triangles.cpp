@@ -4,12 +4,12 @@
 #include <optional>
 
 #include "contact/maugis_overlap.hpp"
+#include "contact/maugis_stress.hpp"
 
 namespace acinus::contact {
 
 namespace {
 
-using Vec2 = Eigen::Vector2d;
 using Triangle2 = std::array<Vec2, 3>;
 
 /// Least cosine between the normals of a triangle and of the contact plane. Below it the triangle
@@ -53,29 +53,6 @@ SharedArea intersect(const Triangle2& a, const Triangle2& b) {
   return shared;
 }
 
-/// Quadrature rule of six points, exact to degree 4 [Dunavant1985]: barycentric weights (1 - 2 g,
-/// g, g).
-struct RulePoint {
-  double g, weight;
-};
-constexpr std::array<RulePoint, 2> kRule = {
-    {{0.445948490915965, 0.223381589678011}, {0.091576213509771, 0.109951743655322}}};
-
-/// Calls visit(x, area) at the quadrature points of a polygon, cut into triangles about its middle.
-template <class Visit>
-void for_each_quadrature_point(const SharedArea& polygon, Visit visit) {
-  if (polygon.n < 3) return;
-  Vec2 middle = Vec2::Zero();
-  for (int k = 0; k < polygon.n; ++k) middle += polygon.corner[k] / polygon.n;
-  for (int k = 0; k < polygon.n; ++k) {
-    const Triangle2 t = {middle, polygon.corner[k], polygon.corner[(k + 1) % polygon.n]};
-    const double area = 0.5 * cross(t[1] - t[0], t[2] - t[0]);
-    const Vec2 sum = t[0] + t[1] + t[2];
-    for (const auto& [g, weight] : kRule)
-      for (const Vec2& x : t) visit(Vec2(g * sum + (1.0 - 3.0 * g) * x), weight * area);
-  }
-}
-
 /// In-plane coordinates of the contact plane, with the origin at the contact point.
 struct PlaneFrame {
   Vec3 origin, u, v;
@@ -105,61 +82,83 @@ MaugisPair make_pair(const MaugisLaw& law, double radius) {
   return {{radius, law.modulus, law.adhesion}, law.cohesive_stress};
 }
 
-/// Normal stress at radius r, Eq. (14) plus Eq. (17), kPa.
-double stress_at(const MaugisPair& pair, const MaugisPoint& state, double r) {
-  return hertz_pressure(pair.pair, state.contact_radius, r) +
-         (pair.pair.adhesion > 0.0
-              ? maugis_adhesive_pressure(pair.cohesive_stress, state.contact_radius,
-                                         state.cohesive_radius, r)
-              : 0.0);
-}
-
-/// Area on the contact plane through which two triangles act on each other.
+/// Area on the contact plane through which two caps act on each other.
 struct PressedArea {
   ContactPlane plane;
-  Triangle2 flat_a, flat_b;
-  SharedArea shared;
-  MaugisCurve curve;
+  MaugisPair pair;
   MaugisPoint state;
 };
 
-/// Area of two triangles in contact; empty where compute_triangle_forces is zero.
-std::optional<PressedArea> compute_pressed_area(const MaugisLaw& law, const CurvedTriangle& a,
-                                                const CurvedTriangle& b) {
+/// Contact of two caps; empty if they do not face each other or are too far apart.
+std::optional<PressedArea> compute_pressed_area(const MaugisLaw& law, const SphericalCap& a,
+                                                const SphericalCap& b) {
   const ContactPlane plane = compute_contact_plane(a, b, law.max_radius);
   if (!(a.normal.dot(plane.normal) > kFacing && b.normal.dot(plane.normal) < -kFacing)) return {};
-  const PlaneFrame frame = make_frame(plane, a);
-  const Triangle2 flat_a = frame.project(a), flat_b = frame.project(b);
-  // Seen from a, the corners of b run clockwise.
-  const SharedArea shared = intersect(flat_a, {flat_b[0], flat_b[2], flat_b[1]});
-  if (shared.n < 3) return {};
-  const MaugisCurve curve = make_maugis_curve(make_pair(law, plane.radius));
-  const MaugisPoint state = maugis_at_overlap(curve, plane.overlap);
+  const MaugisPair pair = make_pair(law, plane.radius);
+  const MaugisPoint state = maugis_at_overlap(pair, plane.overlap);
   if (state.cohesive_radius == 0.0) return {};
-  return PressedArea{plane, flat_a, flat_b, shared, curve, state};
+  return PressedArea{plane, pair, state};
 }
 
-/// Calls visit(x, area, stress) at the quadrature points within the radius c, with stress in kPa.
-template <class Visit>
-void for_each_stress(const PressedArea& pressed, Visit visit) {
-  for_each_quadrature_point(pressed.shared, [&](const Vec2& x, double area) {
-    const double r = x.norm();
-    if (r <= pressed.state.cohesive_radius)
-      visit(x, area, stress_at(pressed.curve.pair, pressed.state, r));
-  });
+/// Stress over a polygon, with the growth of its parts for an overlap larger by kDeeper.
+StressParts integrate_over(const PressedArea& pressed, const SharedArea& area) {
+  const std::span<const Vec2> polygon(area.corner.data(), static_cast<std::size_t>(area.n));
+  const double c2 = pressed.state.cohesive_radius * pressed.state.cohesive_radius;
+  // Most near triangles have no place within c: the polygon lies on one side of a line beyond it.
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec2 &x = polygon[k], side = polygon[(k + 1) % polygon.size()] - x;
+    const double beyond = cross(x, side);  // length times distance; negative: outside this edge
+    if (beyond < 0.0 && beyond * beyond >= c2 * side.squaredNorm()) return {};
+  }
+  const MaugisPoint deeper = maugis_at_overlap(pressed.pair, pressed.plane.overlap + kDeeper);
+  return integrate_stress(make_maugis_stress(pressed.pair, pressed.state),
+                          make_maugis_stress(pressed.pair, deeper), polygon);
+}
+
+TrianglePart part_of(const StressPart& stress, const Triangle2& flat) {
+  TrianglePart part{stress.force, stress.area, std::max(0.0, stress.growth / kDeeper), {}};
+  part.place_a = barycentric(flat, stress.moment / stress.force);
+  return part;
+}
+
+/// Cap of an object's surface up to a circle as wide as the rim of a triangle, so that both keep
+/// their distance there if curvature is shared between them.
+SphericalCap widen(const SphericalCap& object, double rim_radius) {
+  const double k = object.curvature, rim = std::min(rim_radius, 1.0 / std::abs(k));
+  const double below = rim * rim * k / (1.0 + std::sqrt(std::max(0.0, 1.0 - rim * rim * k * k)));
+  return {object.middle - below * object.normal, object.normal, rim, k};
+}
+
+TriangleContact contact_of(const PressedArea& pressed, const SharedArea& area,
+                           const Triangle2& flat_a) {
+  TriangleContact out;
+  const StressParts stress = integrate_over(pressed, area);
+  out.normal = pressed.plane.normal;
+  // Smaller parts are rounding of the integrals around areas that the polygon does not reach.
+  constexpr double kLeastArea = 1e-9;
+  if (stress.push.area > kLeastArea && stress.push.force > 0.0)
+    out.push = part_of(stress.push, flat_a);
+  if (stress.pull.area > kLeastArea && stress.pull.force < 0.0)
+    out.pull = part_of(stress.pull, flat_a);
+  return out;
 }
 
 }  // namespace
 
-ContactPlane compute_contact_plane(const CurvedTriangle& a, const CurvedTriangle& b,
+ContactPlane compute_contact_plane(const SphericalCap& a, const SphericalCap& b,
                                    double max_radius) {
   double k_a = a.curvature, k_b = b.curvature;
   const double sum = std::max(k_a + k_b, 1.0 / max_radius);
   if (k_a < 0.0 || k_b < 0.0 || k_a + k_b < sum) k_a = k_b = 0.5 * sum;
-  const auto fit = [](const CurvedTriangle& t, double k) {
-    return fit_sphere(t, std::min(std::max(k, kPlaneCurvature), 1.0 / t.circumradius));
-  };
-  const FittedSphere at_a = fit(a, k_a), at_b = fit(b, k_b);
+  if (k_a < kPlaneCurvature || k_b < kPlaneCurvature) {
+    const bool flat_a = k_a < kPlaneCurvature;
+    const SphericalCap &plane = flat_a ? a : b, &ball = flat_a ? b : a;
+    const FittedSphere sphere = fit_sphere(ball, flat_a ? k_b : k_a);
+    const double height = (sphere.center - plane.middle).dot(plane.normal);
+    return {sphere.center - height * plane.normal, flat_a ? plane.normal : Vec3(-plane.normal),
+            sphere.radius - height, 1.0 / sum};
+  }
+  const FittedSphere at_a = fit_sphere(a, k_a), at_b = fit_sphere(b, k_b);
   const Vec3 line = at_b.center - at_a.center;
   const double d = line.norm();
   const Vec3 normal = d > 0.0 ? Vec3(line / d) : Vec3::Zero();
@@ -169,51 +168,53 @@ ContactPlane compute_contact_plane(const CurvedTriangle& a, const CurvedTriangle
   return {at_a.center + (at_a.radius - depth) * normal, normal, overlap, 1.0 / sum};
 }
 
+TriangleContact compute_triangle_contact(const MaugisLaw& law, const CurvedTriangle& a,
+                                         const CurvedTriangle& b) {
+  const std::optional<PressedArea> pressed = compute_pressed_area(law, cap_of(a), cap_of(b));
+  if (!pressed) return {};
+  const PlaneFrame frame = make_frame(pressed->plane, a);
+  const Triangle2 flat_a = frame.project(a), flat_b = frame.project(b);
+  // Seen from a, the corners of b run clockwise.
+  const SharedArea shared = intersect(flat_a, {flat_b[0], flat_b[2], flat_b[1]});
+  if (shared.n < 3) return {};
+  return contact_of(*pressed, shared, flat_a);
+}
+
+TriangleContact compute_object_contact(const MaugisLaw& law, const CurvedTriangle& a,
+                                       const SphericalCap& b) {
+  const std::optional<PressedArea> pressed = compute_pressed_area(law, cap_of(a), widen(b, a.circumradius));
+  if (!pressed) return {};
+  const Triangle2 flat = make_frame(pressed->plane, a).project(a);
+  SharedArea area;
+  for (const Vec2& x : flat) area.add(x);
+  return contact_of(*pressed, area, flat);
+}
+
 TriangleForces compute_triangle_forces(const MaugisLaw& law, const CurvedTriangle& a,
                                        const CurvedTriangle& b) {
   TriangleForces out;
-  const std::optional<PressedArea> pressed = compute_pressed_area(law, a, b);
-  if (!pressed) return out;
-  std::array<double, 3> load_a{}, load_b{};
-  for_each_stress(*pressed, [&](const Vec2& x, double area, double stress) {
-    const double force = area * stress;
-    const auto w_a = barycentric(pressed->flat_a, x), w_b = barycentric(pressed->flat_b, x);
+  const TriangleContact contact = compute_triangle_contact(law, a, b);
+  for (const TrianglePart* part : {&contact.push, &contact.pull}) {
+    if (part->area == 0.0) continue;
+    Vec3 x = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) x += part->place_a[k] * a.corner[k];
+    const std::array<double, 3> place_b = weights_along(contact.normal, b.corner, x);
     for (int k = 0; k < 3; ++k) {
-      load_a[k] -= force * w_a[k];
-      load_b[k] += force * w_b[k];
+      out.on_a[k] -= part->place_a[k] * part->force * contact.normal;
+      out.on_b[k] += place_b[k] * part->force * contact.normal;
     }
-    out.normal_force += force;
-    out.contact_area += area;
-  });
-  for (int k = 0; k < 3; ++k) {
-    out.on_a[k] = load_a[k] * pressed->plane.normal;
-    out.on_b[k] = load_b[k] * pressed->plane.normal;
+    out.normal_force += part->force;
+    out.contact_area += part->area;
   }
   return out;
 }
 
-TriangleContact compute_triangle_contact(const MaugisLaw& law, const CurvedTriangle& a,
-                                         const CurvedTriangle& b) {
-  TriangleContact out;
-  const std::optional<PressedArea> pressed = compute_pressed_area(law, a, b);
-  if (!pressed) return out;
-  out.normal = pressed->plane.normal;
-  const MaugisPoint deeper = maugis_at_overlap(pressed->curve, pressed->plane.overlap + kDeeper);
-  for_each_stress(*pressed, [&](const Vec2& x, double area, double stress) {
-    TrianglePart& part = stress > 0.0 ? out.push : out.pull;
-    const double force = area * stress;
-    part.force += force;
-    part.area += area;
-    part.slope += area * (stress_at(pressed->curve.pair, deeper, x.norm()) - stress) / kDeeper;
-    const auto w = barycentric(pressed->flat_a, x);
-    for (int k = 0; k < 3; ++k) part.place_a[k] += force * w[k];
-  });
-  for (TrianglePart* part : {&out.push, &out.pull}) {
-    part->slope = std::max(0.0, part->slope);
-    if (part->force != 0.0)
-      for (double& w : part->place_a) w /= part->force;
-  }
-  return out;
+std::array<double, 3> weights_along(const Vec3& normal, const std::array<Vec3, 3>& corner,
+                                    const Vec3& x) {
+  const Vec3 u = corner[1] - corner[0], v = corner[2] - corner[0], d = x - corner[0];
+  const double whole = normal.dot(u.cross(v));
+  const double w1 = normal.dot(d.cross(v)) / whole, w2 = normal.dot(u.cross(d)) / whole;
+  return {1.0 - w1 - w2, w1, w2};
 }
 
 SurfaceForces compute_surface_forces(const MaugisLaw& law, const CurvedSurface& a,

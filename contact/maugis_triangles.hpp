@@ -1,9 +1,10 @@
 #pragma once
-/// Contact law of the model paper between two triangles: Maugis-Dugdale stress of their spheres,
-/// integrated over the area that both share on the contact plane. [VanLiedekerke2020, Eq. (14) to
-/// (17); Odenthal2013]. A reference law without energy: the force jumps where the shared polygon
-/// changes its corners. Steps use it only where the scene selects it
-/// (dcm/contact/triangle_contact.hpp), the cohesive potential otherwise (cohesive.hpp).
+/// Contact law of the model paper between two triangles, and between a triangle and an object of a
+/// given curvature: Maugis-Dugdale stress of their spheres, integrated over the area that both share
+/// on the contact plane. [VanLiedekerke2020, Eq. (14) to (17), and section 2.1 for objects;
+/// Odenthal2013]. A law without energy, which is continuous where neither sphere changes the sign of
+/// its curvature. Steps use it only where the scene selects it (dcm/contact/triangle_contact.hpp),
+/// the cohesive potential otherwise (cohesive.hpp).
 
 #include <array>
 #include <span>
@@ -23,7 +24,7 @@ struct MaugisLaw {
   double max_radius = 1e3;
 };
 
-/// Contact plane of two triangles: the radical plane of their spheres.
+/// Contact plane of two caps: the radical plane of their spheres, or the plane of a flat one.
 struct ContactPlane {
   Vec3 point;      ///< um, intersection of the line of centres with the plane
   Vec3 normal;     ///< unit, along the line of centres, a to b
@@ -31,16 +32,19 @@ struct ContactPlane {
   double radius;   ///< R^, um
 };
 
-/// Contact plane from the line of centres of two spheres. If one triangle is concave, or both
-/// together are flatter than max_radius, both get half of the sum of curvatures: the gap between
-/// two surfaces depends, to the order of Hertz, on that sum alone, while the line between the
-/// nearly concentric centres of a hollow and a ball in it would be noise.
-ContactPlane compute_contact_plane(const CurvedTriangle& a, const CurvedTriangle& b,
+/// Contact plane from the line of centres of two spheres. If one cap is concave, or both together
+/// are flatter than max_radius, both get half of the sum of curvatures: the gap between two surfaces
+/// depends, to the order of Hertz, on that sum alone, while the line between the nearly concentric
+/// centres of a hollow and a ball in it would be noise.
+ContactPlane compute_contact_plane(const SphericalCap& a, const SphericalCap& b,
                                    double max_radius);
 
-/// Forces on the corners, nN. They sum to zero and have no moment, both to round-off: each
-/// quadrature point acts along the normal, with the same barycentric weights in a triangle as in
-/// its projection.
+/// Barycentric weights of the place of a triangle on the line through x along the normal.
+std::array<double, 3> weights_along(const Vec3& normal, const std::array<Vec3, 3>& corner,
+                                    const Vec3& x);
+
+/// Forces on the corners, nN. They sum to zero and have no moment, both to round-off: stress acts
+/// along the normal, with the same barycentric weights in a triangle as in its projection.
 struct TriangleForces {
   std::array<Vec3, 3> on_a = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   std::array<Vec3, 3> on_b = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
@@ -69,6 +73,12 @@ struct TriangleContact {
 };
 TriangleContact compute_triangle_contact(const MaugisLaw& law, const CurvedTriangle& a,
                                          const CurvedTriangle& b);
+
+/// Contact of a triangle with an object, of which it meets the sphere that touches it at a place:
+/// the object itself if it is a plane or a ball. The area is that of the projected triangle.
+/// @param b  rim radius 0
+TriangleContact compute_object_contact(const MaugisLaw& law, const CurvedTriangle& a,
+                                       const SphericalCap& b);
 
 /// Forces between two surfaces, summed over all pairs of triangles.
 struct SurfaceForces {

@@ -28,14 +28,6 @@ Vec3 place_at(const Corners& x, const std::array<double, 3>& w) {
   return w[0] * x[0] + w[1] * x[1] + w[2] * x[2];
 }
 
-/// Barycentric weights of the place of a triangle on the line through x along the normal.
-std::array<double, 3> weights_along(const Vec3& normal, const Corners& corner, const Vec3& x) {
-  const Vec3 u = corner[1] - corner[0], v = corner[2] - corner[0], d = x - corner[0];
-  const double whole = normal.dot(u.cross(v));
-  const double w1 = normal.dot(d.cross(v)) / whole, w2 = normal.dot(u.cross(d)) / whole;
-  return {1 - w1 - w2, w1, w2};
-}
-
 std::array<float, 2> rounded(const std::array<double, 3>& w) {
   return {static_cast<float>(w[0]), static_cast<float>(w[1])};
 }
@@ -52,9 +44,8 @@ contact::MaugisLaw law_between(const ContactInput& in, const ContactWorkspace& w
 /// Largest gap at which two spheres exert forces on each other, um: it grows with the radius.
 double largest_gap(const contact::MaugisLaw& law) {
   if (law.adhesion == 0) return 0;
-  return -contact::make_maugis_curve(
-              {{law.max_radius, law.modulus, law.adhesion}, law.cohesive_stress})
-              .least_overlap;
+  return -contact::least_overlap(
+      {{law.max_radius, law.modulus, law.adhesion}, law.cohesive_stress});
 }
 
 bool are_constrained(const ContactWorkspace& work, int a, int b) {
@@ -105,7 +96,7 @@ struct BodyPair {
     k.place_a = rounded(part.place_a);
     const Corners at_b = corners_of(work.body[b], t);
     const Vec3 x = place_at(corners_of(work.body[a], s), Contact::weights_at(k.place_a));
-    const std::array<double, 3> w = weights_along(k.normal, at_b, x);
+    const std::array<double, 3> w = contact::weights_along(k.normal, at_b, x);
     k.place = rounded(w);
     k.gap = k.normal.dot(x - place_at(at_b, w));
     k.touching = part.area;
@@ -196,7 +187,7 @@ void add_place_remainders(const ContactInput& in, const ContactWorkspace& work,
     if (k.is_fold()) continue;
     const Vec3 x = place_at(corners_of(work.body[k.a], k.point), Contact::weights_at(k.place_a));
     const std::array<double, 3> exact =
-        weights_along(k.normal, corners_of(work.body[k.b], k.triangle), x);
+        contact::weights_along(k.normal, corners_of(work.body[k.b], k.triangle), x);
     const std::array<double, 3> kept = k.weights();
     const std::size_t lane = work.lane_of_body[k.b];
     const auto& t = (*work.body[k.b].triangle)[k.triangle];

@@ -23,7 +23,7 @@ TEST(CurvedTriangle, SphereGoesThroughItsCorners) {
   const std::array<Vec3, 3> corner = {Vec3(1, 2, 3), Vec3(4, 2.5, 3), Vec3(2, 5, 3.5)};
   const CurvedTriangle t = make_curved_triangle(corner, 0.1);
   EXPECT_EQ(t.curvature, 0.1);
-  const FittedSphere s = fit_sphere(t, 0.1);
+  const FittedSphere s = fit_sphere(cap_of(t), 0.1);
   for (const Vec3& x : corner) {
     EXPECT_NEAR((x - s.center).norm(), 10.0, 32 * kEps * 10);
     EXPECT_NEAR((x - t.circumcenter).norm(), t.circumradius, 32 * kEps * 5);
@@ -38,7 +38,7 @@ TEST(CurvedTriangle, CurvatureIsAtMostThatOfTheHemisphere) {
   EXPECT_NEAR(make_curved_triangle(corner, -3.0).curvature, -0.4, 4 * kEps);
   const CurvedTriangle t = make_curved_triangle(corner, 3.0);
   // A height is the root of a difference: half the digits.
-  EXPECT_NEAR((fit_sphere(t, t.curvature).center - Vec3(1.5, 2, 0)).norm(), 0.0, 1e-7);
+  EXPECT_NEAR((fit_sphere(cap_of(t), t.curvature).center - Vec3(1.5, 2, 0)).norm(), 0.0, 1e-7);
 }
 
 // On a sphere the operator is exact up to the shape of the triangles: an error of the order of

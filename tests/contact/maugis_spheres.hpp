@@ -2,6 +2,7 @@
 /// Two icospheres that meet by the paper's law between triangles, beside the curve of exact
 /// spheres.
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -18,6 +19,10 @@ struct Body {
   std::vector<Vec3> node;
   std::vector<CurvedTriangle> curved;
 };
+
+/// W = 10 uJ/m^2 and h0 = 20 nm between two spheres of 10 um: lambda = 0.0045, 0.96, 4.5 and 45.
+inline constexpr double kModuli[] = {3e4, 10.0, 1.0, 0.03};
+inline MaugisPair pair_of(double modulus) { return {{5.0, modulus, 0.01}, 0.5}; }
 
 /// Icosphere whose nodes are on a sphere, turned, with the exact curvature or the estimated one.
 inline Body make_sphere(const geometry::Topology& t, double radius, const Vec3& center,
@@ -57,7 +62,7 @@ inline Scatter scatter_of(const std::vector<double>& value) {
     out.mean += x / static_cast<double>(value.size());
     squares += x * x / static_cast<double>(value.size());
   }
-  out.deviation = std::sqrt(squares - out.mean * out.mean);
+  out.deviation = std::sqrt(std::max(0.0, squares - out.mean * out.mean));
   return out;
 }
 
@@ -71,9 +76,7 @@ struct Setting {
 /// Two spheres of this radius, um; W = 1e-5 J/m^2, h0 = 20 nm.
 inline constexpr double kSphereRadius = 10;
 inline MaugisLaw law_of(const Setting& s) { return {s.modulus, 0.01, 0.5}; }
-inline MaugisCurve curve_of(const Setting& s) {
-  return make_maugis_curve({{kSphereRadius / 2, s.modulus, 0.01}, 0.5});
-}
+inline MaugisPair pair_of(const Setting& s) { return {{kSphereRadius / 2, s.modulus, 0.01}, 0.5}; }
 
 /// Push of a on b, nN, with these orientations.
 inline double push(const Setting& s, double overlap, const Mat3& turn_a, const Mat3& turn_b) {
@@ -87,7 +90,7 @@ inline double push(const Setting& s, double overlap, const Mat3& turn_a, const M
 /// Force over that of the curve.
 inline Scatter measure(const Setting& s, double overlap) {
   auto random = reference::stream(s.nodes);
-  const double exact = maugis_at_overlap(curve_of(s), overlap).force;
+  const double exact = maugis_at_overlap(pair_of(s), overlap).force;
   std::vector<double> ratio;
   for (int k = 0; k < s.orientations; ++k) {
     const Mat3 turn_a = reference::random_rotation(random);

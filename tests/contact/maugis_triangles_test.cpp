@@ -103,8 +103,8 @@ TEST(MaugisTriangles, SharedAreaOfAHexagonAndOfAShiftedTriangle) {
 TEST(MaugisTriangles, UnequalSpheresPlaneAndHollow) {
   const Corners low = equilateral(0.1, 0, true, 0), high = equilateral(0.1, 0, false, 0);
   const auto contact_plane = [&](double k_a, double k_b) {
-    return compute_contact_plane(make_curved_triangle(low, k_a), make_curved_triangle(high, k_b),
-                                 1e3);
+    return compute_contact_plane(cap_of(make_curved_triangle(low, k_a)),
+                                 cap_of(make_curved_triangle(high, k_b)), 1e3);
   };
   // Both triangles lie in one plane: the spheres overlap by both sagittas.
   const ContactPlane unequal = contact_plane(0.1, 0.05);
@@ -112,10 +112,10 @@ TEST(MaugisTriangles, UnequalSpheresPlaneAndHollow) {
   EXPECT_NEAR(unequal.overlap, sagitta(10, 0.1) + sagitta(20, 0.1), 1e-13);
   EXPECT_NEAR(unequal.point.norm(), 0.0, 1e-13);  // the radical plane is that of the common circle
   EXPECT_NEAR((unequal.normal - Vec3::UnitZ()).norm(), 0.0, 1e-12);
-  // A plane counts as a sphere of 1 m: 1e-10 um of round-off.
+  // A plane is met as it is.
   const ContactPlane plane = contact_plane(0.1, 0);
   EXPECT_NEAR(plane.radius, 10, 1e-13);
-  EXPECT_NEAR(plane.overlap, sagitta(10, 0.1), 4e-9);  // and a sagitta of 2e-9
+  EXPECT_NEAR(plane.overlap, sagitta(10, 0.1), 1e-13);
   // A ball of 10 in a hollow of 20: 1/R^ = 0.05, as two equal spheres of 40.
   const ContactPlane hollow = contact_plane(0.1, -0.05);
   EXPECT_NEAR(hollow.radius, 20, 1e-12);
@@ -252,30 +252,78 @@ TEST(MaugisTriangles, ChangingSidesChangesSigns) {
   EXPECT_GT(met, 10);
 }
 
-// Polygons tile the contact without gaps if all triangles share one sphere, so the sum is a
-// quadrature of the exact stress, without bias over orientations: the mean has to be within three
-// errors of the mean of 1, and the scatter to fall with the mesh.
+// Polygons tile the contact without gaps if all triangles share one sphere, and the stress is
+// integrated exactly: meshes of any orientation and size push as the spheres do.
 TEST(MaugisTriangles, IcospheresFollowTheCurveOfSpheres) {
-  const MaugisCurve curve = make_maugis_curve({{5, 10, 0.01}, 0.5});
-  for (const double overlap : {0.5, curve.contact_overlap + 1e-3}) {
-    double previous = 1;
+  const MaugisPair pair = {{5, 10, 0.01}, 0.5};
+  const double end = maugis_at_radius(pair, maugis_turning_radius(pair)).overlap;
+  for (const double overlap : {0.5, 0.05, end + 1e-3})
     for (const int nodes : {162, 642}) {
-      const Scatter r = measure({nodes, 10, true, 24}, overlap);
-      std::printf("%d nodes, overlap %.4f um: %.3f +- %.3f of the curve\n", nodes, overlap, r.mean,
-                  r.deviation);
-      EXPECT_NEAR(r.mean, 1.0, 3 * r.deviation / std::sqrt(24.0));
-      EXPECT_LT(r.deviation, previous);
-      previous = r.deviation;
+      const Scatter r = measure({nodes, 10, true, 12}, overlap);
+      std::printf("%d nodes, overlap %.4f um: 1 %+.1e +- %.1e of the curve\n", nodes, overlap,
+                  r.mean - 1, r.deviation);
+      EXPECT_NEAR(r.mean, 1.0, 1e-8);
+      EXPECT_LT(r.deviation, 1e-7);
     }
-  }
 }
 
 // Estimated curvatures differ by 1.4e-4 (curved_triangle_test.cpp), overlaps by up to 2.8 nm,
 // forces of Hertz by 1.5 x 2.8/500 = 0.9 %.
 TEST(MaugisTriangles, EstimatedCurvatureServesUnderPressure) {
   const Scatter r = measure({162, 10, false, 24}, 0.5);
-  std::printf("162 nodes, estimated curvature: %.3f +- %.3f of the curve\n", r.mean, r.deviation);
-  EXPECT_NEAR(r.mean, 1.0, 3 * r.deviation / std::sqrt(24.0) + 0.009);
+  std::printf("162 nodes, estimated curvature: %.4f +- %.4f of the curve\n", r.mean, r.deviation);
+  EXPECT_NEAR(r.mean, 1.0, 0.009);
+}
+
+// A ball that rests on a plane, a larger ball, and in a hollow: the sum over its triangles is the
+// force of the curve with R^ of the two.
+TEST(MaugisTriangles, ObjectsFollowTheCurveOfSpheres) {
+  const MaugisLaw law = {10, 0.01, 0.5};
+  const geometry::Topology& t = geometry::shared_icosphere(162);
+  auto random = reference::stream(12);
+  for (const double curvature : {0.0, 1 / 25.0})
+    for (const double overlap : {0.5, 0.02, -0.01}) {
+      const double radius = 1 / (0.1 + curvature);
+      const MaugisPair pair = {{radius, law.modulus, law.adhesion}, law.cohesive_stress};
+      const double exact = maugis_at_overlap(pair, overlap).force;
+      const Body ball = test::make_sphere(t, 10, Vec3(0, 0, 10 - overlap),
+                                          reference::random_rotation(random), true);
+      double force = 0, across = 0;
+      for (const CurvedTriangle& s : ball.curved) {
+        // The place of the object nearest to the triangle: of the ball, towards its middle.
+        const Vec3 center(0, 0, curvature > 0 ? -1 / curvature : 0);
+        const Vec3 normal =
+            curvature > 0 ? Vec3((s.circumcenter - center).normalized()) : Vec3(Vec3::UnitZ());
+        const Vec3 place = curvature > 0
+                               ? Vec3(center + normal / curvature)
+                               : Vec3(s.circumcenter.x(), s.circumcenter.y(), 0);
+        const TriangleContact k = compute_object_contact(law, s, {place, normal, 0, curvature});
+        for (const TrianglePart* part : {&k.push, &k.pull}) {
+          force -= part->force * k.normal.z();
+          across += std::abs(part->force) * k.normal.cross(Vec3::UnitZ()).norm();
+        }
+      }
+      EXPECT_NEAR(force, exact, 1e-8 * std::abs(exact) + 1e-10) << curvature << " " << overlap;
+      EXPECT_LT(across, 1e-8);
+    }
+}
+
+// A ball in a hollow of 30 um, R^ = 15: to the order of Hertz, with the spheres shared by halves.
+TEST(MaugisTriangles, ABallInAHollowFollowsHertz) {
+  const MaugisLaw law = {10, 0, 0};
+  const Body ball = test::make_sphere(geometry::shared_icosphere(642), 10, Vec3::Zero(),
+                                      Mat3::Identity(), true);
+  const double overlap = 0.1;
+  const Vec3 center(0, 0, 20 + overlap);  // of the hollow, which the ball meets at z = -10
+  double force = 0;
+  for (const CurvedTriangle& s : ball.curved) {
+    const Vec3 away = (s.circumcenter - center).normalized();
+    const TriangleContact k =
+        compute_object_contact(law, s, {center + 30 * away, -away, 0, -1 / 30.0});
+    force -= (k.push.force + k.pull.force) * k.normal.z();
+  }
+  const double exact = maugis_at_overlap({{15, law.modulus, 0}, 0}, overlap).force;
+  EXPECT_NEAR(force, exact, 0.03 * exact);
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ TEST(TriangleContacts, SpheresFollowTheCurve) {
   double push = 0;
   for (const contact::Contact& k : c.surface()) push -= k.force * k.normal.z();
   const double exact =
-      contact::maugis_at_overlap(contact::make_maugis_curve({{5, 10, 0.01}, 0.5}), 0.5).force;
+      contact::maugis_at_overlap({{5, 10, 0.01}, 0.5}, 0.5).force;
   std::printf("push of two spheres over the curve's: %.4f\n", push / exact);
   EXPECT_NEAR(push / exact, 1, 3 * 0.004);
 }
