@@ -122,6 +122,7 @@ class ListBuilder {
     near_index_.resize(discs_.triangle.size());
     clear_block();
     if (discs_.n == 0) return;
+    if (o_.triangles && !self) return add_triangles();
     select_near_sites();
     for (const int s : included_) add_site(s);
     flush();
@@ -172,6 +173,21 @@ class ListBuilder {
     place_.resize(n_sites(*a_, o_.quadrature));
     for (std::size_t s = 0; s < place_.size(); ++s) place_[s] = site_place(*a_, o_.quadrature, s);
     select_near(near_b_, place_, {});
+  }
+
+  /// Lists the triangles of b within the margin of each triangle of a.
+  void add_triangles() {
+    select_near(near_b_, a_->center, a_->reach);
+    for (const int s : included_) {
+      compute_bounds_from(discs_, a_->center[s]);
+      const auto far = static_cast<float>(margin_ + a_->reach[s] + kRounding);
+      const std::size_t before = list_->triangle.size();
+      for (std::size_t k = 0; k < discs_.n; ++k)
+        if (bound_[k] <= far) list_->triangle.push_back(discs_.triangle[k]);
+      if (list_->triangle.size() == before) continue;
+      list_->point.push_back(s);
+      list_->start.push_back(static_cast<std::uint32_t>(list_->triangle.size()));
+    }
   }
 
   void compute_bounds_from(const Discs& discs, const Vec3& x) {
@@ -335,7 +351,8 @@ std::vector<Candidates> list_pairs(std::span<const SurfaceBody> bodies,
   const std::vector<std::pair<int, int>> probed = find_pairs_between(boxes, fixed_boxes, margin);
   // f(a, b) for all pairs, those of each a ascending: pairs come in order of their first bodies.
   const auto for_each_pair = [&](const auto& f) {
-    for (const auto& [a, b] : both) f(b, a);
+    if (!o.triangles)
+      for (const auto& [a, b] : both) f(b, a);
     if (o.self_range > 0)
       for (int a = 0; a < n; ++a)
         if (bodies[a].topology != nullptr) f(a, a);

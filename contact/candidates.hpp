@@ -17,14 +17,18 @@ struct SearchOptions {
   double max_depth = 0;   ///< um, largest overlap of a contact
   double skin = 0;        ///< um, Verlet skin: relative motion that a list allows for
   double self_range = 0;  ///< um, largest gap of a self-contact; 0: none
+  /// True: two bodies are paired once, the lower number first, and their list has all triangles
+  /// within the range, for laws between triangles. Self-contacts keep the points.
+  bool triangles = false;
 };
 
 /// Candidate list of a pair of bodies: points of a near b with the triangles that may be closest to
-/// each. Complete while the bodies have moved relative to each other by no more than the skin.
+/// each; between triangles, triangles of a near b with those within the range of each. Complete
+/// while the bodies have moved relative to each other by no more than the skin.
 struct Candidates {
   int body_a = 0, body_b = 0;
-  std::vector<int> point;            ///< of a, ascending
-  std::vector<float> gap;            ///< um, when the list was made
+  std::vector<int> point;            ///< of a, or its triangles; ascending
+  std::vector<float> gap;            ///< um, when the list was made; of points
   std::vector<std::uint32_t> start;  ///< [n_point + 1]
   std::vector<int> triangle;         ///< of b, the closest first
   std::vector<float> bound;          ///< um, distance when the list was made
@@ -44,9 +48,9 @@ inline const SurfaceBody& body_at(std::span<const SurfaceBody> bodies,
 }
 
 /// Empty lists, ascending, for all pairs of bodies that may touch once their boxes have approached
-/// by `reserve`, um: each pair of `bodies` in both orders, each body with itself if o.self_range >
-/// 0, and each body with those of `fixed`. Fixed bodies are only probed and are numbered after
-/// `bodies`.
+/// by `reserve`, um: each pair of `bodies` in both orders, or in one if o.triangles, each body with
+/// itself if o.self_range > 0, and each body with those of `fixed`. Fixed bodies are only probed
+/// and are numbered after `bodies`.
 std::vector<Candidates> list_pairs(std::span<const SurfaceBody> bodies,
                                    std::span<const SurfaceBody> fixed, const SearchOptions& o,
                                    double reserve);

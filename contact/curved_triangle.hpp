@@ -38,7 +38,8 @@ struct FittedSphere {
   Vec3 center;
   double radius;
 };
-/// Sphere of a cap with the given curvature, 1/um, in place of its own; at most that of a hemisphere.
+/// Sphere of a cap with the given curvature, 1/um, in place of its own; at most that of a
+/// hemisphere.
 /// @pre curvature > 0 (asserted)
 FittedSphere fit_sphere(const SphericalCap& cap, double curvature);
 

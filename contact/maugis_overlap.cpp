@@ -21,9 +21,23 @@ double range_of(const MaugisPair& pair) { return pair.pair.adhesion / pair.cohes
 /// State without contact; c is the larger root, the other one is unstable.
 MaugisPoint ring_at_overlap(const MaugisPair& pair, double overlap) {
   const double R = pair.pair.radius, s = rim_rise(pair);
-  const double c =
-      R * (s + std::sqrt(std::max(0.0, s * s + 2.0 * (range_of(pair) + overlap) / R)));
+  const double c = R * (s + std::sqrt(std::max(0.0, s * s + 2.0 * (range_of(pair) + overlap) / R)));
   return {0.0, c, overlap, -kPi * c * c * pair.cohesive_stress};
+}
+
+/// Reduced scales of a pair.
+struct Scale {
+  double lambda, unit;
+};
+Scale scale_of(const MaugisPair& pair) {
+  return {maugis_lambda(pair), maugis_radius_unit(pair.pair)};
+}
+
+/// Bound of A: that of JKR, whose approach A^2 - (2/3) sqrt(6 A) has the largest adhesive part.
+double first_guess(double approach) {
+  double a = std::sqrt(std::max(approach, 0.0)) + 1.39;
+  for (int k = 0; k < 3; ++k) a = std::sqrt(std::max(approach + 1.633 * std::sqrt(a), 0.3));
+  return a;
 }
 
 /// Largest A with the given approach; empty if the contact branch ends before.
@@ -31,10 +45,9 @@ MaugisPoint ring_at_overlap(const MaugisPair& pair, double overlap) {
 /// In A alone: H follows from the approach, and the closure minus 1 grows and is convex beyond its
 /// largest root. Newton's method falls onto that root from above; where it loses its slope or
 /// passes A = 0 there is none.
-std::optional<MaugisState> find_contact(double lambda, double approach) {
+std::optional<MaugisState> find_contact(double lambda, double approach, double guess) {
   constexpr int kMostSteps = 100;
-  // Bound of A from JKR's approach = A^2 - (2/3) sqrt(6 A), the largest adhesive part of all lambda.
-  double a = std::sqrt(std::max(approach, 0.0)) + 1.39;
+  double a = guess;
   const double h_factor = 3.0 / (4.0 * lambda);
   for (int k = 0; k < kMostSteps; ++k) {
     const double h = h_factor * (a * a - approach);
@@ -42,28 +55,59 @@ std::optional<MaugisState> find_contact(double lambda, double approach) {
     const double slope = f.by_a + f.by_h * 2.0 * h_factor * a;
     if (!(slope > 0.0)) return {};
     const double down = (f.value - 1.0) / slope;
-    if (down <= 1e-14 * a) return maugis_state(lambda, a, h);
+    // A first guess below the root steps above it.
+    if (k > 0 ? down <= 1e-14 * a : std::abs(down) <= 1e-14 * a) return maugis_state(lambda, a, h);
     a -= down;
     if (!(a > 0.0)) return {};
   }
   return {};  // at the end of the branch to rounding
 }
 
+/// Overlap below which there is no force in any case, um: the range, the rise of the rim and the
+/// stretch of JKR together.
+double farthest_overlap(const MaugisPair& pair, const Scale& scale) {
+  const double s = rim_rise(pair), R = pair.pair.radius;
+  return -range_of(pair) - 0.5 * R * s * s - scale.unit * scale.unit / R;
+}
+
+MaugisPoint point_at(const MaugisPair& pair, const Scale& scale, double overlap, double guess) {
+  const SpherePair& p = pair.pair;
+  const double unit = scale.unit;
+  const auto state = find_contact(scale.lambda, overlap * p.radius / (unit * unit), guess);
+  if (state)
+    return {state->a * unit, state->c * unit, overlap, state->load * kPi * p.adhesion * p.radius};
+  const double s = rim_rise(pair);
+  if (overlap < -range_of(pair) - 0.5 * p.radius * s * s || maugis_turns(scale.lambda))
+    return {0.0, 0.0, overlap, 0.0};
+  return ring_at_overlap(pair, overlap);
+}
+
+MaugisPoint hertz_point(const SpherePair& pair, double overlap) {
+  const SphereForce hertz = hertz_force(pair, overlap);
+  return {hertz.contact_radius, hertz.contact_radius, overlap, hertz.force};
+}
+
 }  // namespace
 
 MaugisPoint maugis_at_overlap(const MaugisPair& pair, double overlap) {
-  const SpherePair& p = pair.pair;
-  if (p.adhesion == 0.0) {
-    const SphereForce hertz = hertz_force(p, overlap);
-    return {hertz.contact_radius, hertz.contact_radius, overlap, hertz.force};
-  }
+  return maugis_growth(pair, overlap, 0.0).now;
+}
+
+MaugisGrowth maugis_growth(const MaugisPair& pair, double overlap, double more) {
+  if (pair.pair.adhesion == 0.0)
+    return {hertz_point(pair.pair, overlap), hertz_point(pair.pair, overlap + more)};
   ACINUS_ASSERT(pair.cohesive_stress > 0.0);
-  const double unit = maugis_radius_unit(p), lambda = maugis_lambda(pair);
-  const auto state = find_contact(lambda, overlap * p.radius / (unit * unit));
-  if (state)
-    return {state->a * unit, state->c * unit, overlap, state->load * kPi * p.adhesion * p.radius};
-  if (maugis_turns(lambda) || overlap < least_overlap(pair)) return {0.0, 0.0, overlap, 0.0};
-  return ring_at_overlap(pair, overlap);
+  const Scale scale = scale_of(pair);
+  if (overlap < farthest_overlap(pair, scale)) return {{0, 0, overlap, 0}, {0, 0, overlap, 0}};
+  const auto guess_at = [&](double x) {
+    return first_guess(x * pair.pair.radius / (scale.unit * scale.unit));
+  };
+  const MaugisPoint now = point_at(pair, scale, overlap, guess_at(overlap));
+  if (more == 0.0) return {now, now};
+  const double then = overlap + more;
+  // The root moves little; below it Newton's method steps above it first.
+  const double guess = now.contact_radius > 0 ? now.contact_radius / scale.unit : guess_at(then);
+  return {now, point_at(pair, scale, then, guess)};
 }
 
 double least_overlap(const MaugisPair& pair) {

@@ -15,6 +15,12 @@ namespace acinus::contact {
 /// it continues the contact branch at a = 0 without a jump. Adhesion 0: Hertz.
 MaugisPoint maugis_at_overlap(const MaugisPair& pair, double overlap);
 
+/// States at an overlap and at one that is larger by `more`, um, for the growth of the stress.
+struct MaugisGrowth {
+  MaugisPoint now, then;
+};
+MaugisGrowth maugis_growth(const MaugisPair& pair, double overlap, double more);
+
 /// Least overlap with a force, um: negative with adhesion.
 double least_overlap(const MaugisPair& pair);
 

@@ -1,7 +1,6 @@
 #include "contact/maugis_triangles.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "contact/maugis_overlap.hpp"
 #include "contact/maugis_stress.hpp"
@@ -82,37 +81,27 @@ MaugisPair make_pair(const MaugisLaw& law, double radius) {
   return {{radius, law.modulus, law.adhesion}, law.cohesive_stress};
 }
 
-/// Area on the contact plane through which two caps act on each other.
-struct PressedArea {
-  ContactPlane plane;
-  MaugisPair pair;
-  MaugisPoint state;
-};
-
-/// Contact of two caps; empty if they do not face each other or are too far apart.
-std::optional<PressedArea> compute_pressed_area(const MaugisLaw& law, const SphericalCap& a,
-                                                const SphericalCap& b) {
-  const ContactPlane plane = compute_contact_plane(a, b, law.max_radius);
-  if (!(a.normal.dot(plane.normal) > kFacing && b.normal.dot(plane.normal) < -kFacing)) return {};
-  const MaugisPair pair = make_pair(law, plane.radius);
-  const MaugisPoint state = maugis_at_overlap(pair, plane.overlap);
-  if (state.cohesive_radius == 0.0) return {};
-  return PressedArea{plane, pair, state};
+/// True if two caps look at each other across their contact plane.
+bool face(const SphericalCap& a, const SphericalCap& b, const ContactPlane& plane) {
+  return a.normal.dot(plane.normal) > kFacing && b.normal.dot(plane.normal) < -kFacing;
 }
 
 /// Stress over a polygon, with the growth of its parts for an overlap larger by kDeeper.
-StressParts integrate_over(const PressedArea& pressed, const SharedArea& area) {
+StressParts integrate_over(const MaugisLaw& law, const ContactPlane& plane,
+                           const SharedArea& area) {
+  const MaugisPair pair = make_pair(law, plane.radius);
+  const MaugisGrowth state = maugis_growth(pair, plane.overlap, kDeeper);
+  if (state.now.cohesive_radius == 0.0) return {};
   const std::span<const Vec2> polygon(area.corner.data(), static_cast<std::size_t>(area.n));
-  const double c2 = pressed.state.cohesive_radius * pressed.state.cohesive_radius;
+  const double c2 = state.now.cohesive_radius * state.now.cohesive_radius;
   // Most near triangles have no place within c: the polygon lies on one side of a line beyond it.
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const Vec2 &x = polygon[k], side = polygon[(k + 1) % polygon.size()] - x;
     const double beyond = cross(x, side);  // length times distance; negative: outside this edge
     if (beyond < 0.0 && beyond * beyond >= c2 * side.squaredNorm()) return {};
   }
-  const MaugisPoint deeper = maugis_at_overlap(pressed.pair, pressed.plane.overlap + kDeeper);
-  return integrate_stress(make_maugis_stress(pressed.pair, pressed.state),
-                          make_maugis_stress(pressed.pair, deeper), polygon);
+  return integrate_stress(make_maugis_stress(pair, state.now), make_maugis_stress(pair, state.then),
+                          polygon);
 }
 
 TrianglePart part_of(const StressPart& stress, const Triangle2& flat) {
@@ -129,11 +118,11 @@ SphericalCap widen(const SphericalCap& object, double rim_radius) {
   return {object.middle - below * object.normal, object.normal, rim, k};
 }
 
-TriangleContact contact_of(const PressedArea& pressed, const SharedArea& area,
+TriangleContact contact_of(const MaugisLaw& law, const ContactPlane& plane, const SharedArea& area,
                            const Triangle2& flat_a) {
   TriangleContact out;
-  const StressParts stress = integrate_over(pressed, area);
-  out.normal = pressed.plane.normal;
+  const StressParts stress = integrate_over(law, plane, area);
+  out.normal = plane.normal;
   // Smaller parts are rounding of the integrals around areas that the polygon does not reach.
   constexpr double kLeastArea = 1e-9;
   if (stress.push.area > kLeastArea && stress.push.force > 0.0)
@@ -170,24 +159,26 @@ ContactPlane compute_contact_plane(const SphericalCap& a, const SphericalCap& b,
 
 TriangleContact compute_triangle_contact(const MaugisLaw& law, const CurvedTriangle& a,
                                          const CurvedTriangle& b) {
-  const std::optional<PressedArea> pressed = compute_pressed_area(law, cap_of(a), cap_of(b));
-  if (!pressed) return {};
-  const PlaneFrame frame = make_frame(pressed->plane, a);
+  const SphericalCap cap_a = cap_of(a), cap_b = cap_of(b);
+  const ContactPlane plane = compute_contact_plane(cap_a, cap_b, law.max_radius);
+  if (!face(cap_a, cap_b, plane)) return {};
+  const PlaneFrame frame = make_frame(plane, a);
   const Triangle2 flat_a = frame.project(a), flat_b = frame.project(b);
   // Seen from a, the corners of b run clockwise.
   const SharedArea shared = intersect(flat_a, {flat_b[0], flat_b[2], flat_b[1]});
   if (shared.n < 3) return {};
-  return contact_of(*pressed, shared, flat_a);
+  return contact_of(law, plane, shared, flat_a);
 }
 
 TriangleContact compute_object_contact(const MaugisLaw& law, const CurvedTriangle& a,
                                        const SphericalCap& b) {
-  const std::optional<PressedArea> pressed = compute_pressed_area(law, cap_of(a), widen(b, a.circumradius));
-  if (!pressed) return {};
-  const Triangle2 flat = make_frame(pressed->plane, a).project(a);
+  const SphericalCap cap_a = cap_of(a), cap_b = widen(b, a.circumradius);
+  const ContactPlane plane = compute_contact_plane(cap_a, cap_b, law.max_radius);
+  if (!face(cap_a, cap_b, plane)) return {};
+  const Triangle2 flat = make_frame(plane, a).project(a);
   SharedArea area;
   for (const Vec2& x : flat) area.add(x);
-  return contact_of(*pressed, area, flat);
+  return contact_of(law, plane, area, flat);
 }
 
 TriangleForces compute_triangle_forces(const MaugisLaw& law, const CurvedTriangle& a,

@@ -1,10 +1,10 @@
 #pragma once
 /// Contact law of the model paper between two triangles, and between a triangle and an object of a
-/// given curvature: Maugis-Dugdale stress of their spheres, integrated over the area that both share
-/// on the contact plane. [VanLiedekerke2020, Eq. (14) to (17), and section 2.1 for objects;
-/// Odenthal2013]. A law without energy, which is continuous where neither sphere changes the sign of
-/// its curvature. Steps use it only where the scene selects it (dcm/contact/triangle_contact.hpp),
-/// the cohesive potential otherwise (cohesive.hpp).
+/// given curvature: Maugis-Dugdale stress of their spheres, integrated over the area that both
+/// share on the contact plane. [VanLiedekerke2020, Eq. (14) to (17), and section 2.1 for objects;
+/// Odenthal2013]. A law without energy, which is continuous where neither sphere changes the sign
+/// of its curvature. Steps use it only where the scene selects it
+/// (dcm/contact/triangle_contact.hpp), the cohesive potential otherwise (cohesive.hpp).
 
 #include <array>
 #include <span>
@@ -33,11 +33,10 @@ struct ContactPlane {
 };
 
 /// Contact plane from the line of centres of two spheres. If one cap is concave, or both together
-/// are flatter than max_radius, both get half of the sum of curvatures: the gap between two surfaces
-/// depends, to the order of Hertz, on that sum alone, while the line between the nearly concentric
-/// centres of a hollow and a ball in it would be noise.
-ContactPlane compute_contact_plane(const SphericalCap& a, const SphericalCap& b,
-                                   double max_radius);
+/// are flatter than max_radius, both get half of the sum of curvatures: the gap between two
+/// surfaces depends, to the order of Hertz, on that sum alone, while the line between the nearly
+/// concentric centres of a hollow and a ball in it would be noise.
+ContactPlane compute_contact_plane(const SphericalCap& a, const SphericalCap& b, double max_radius);
 
 /// Barycentric weights of the place of a triangle on the line through x along the normal.
 std::array<double, 3> weights_along(const Vec3& normal, const std::array<Vec3, 3>& corner,

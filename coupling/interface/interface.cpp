@@ -11,6 +11,7 @@
 #include "dcm/contact/contact_points.hpp"
 #include "dcm/contact/contact_sides.hpp"
 #include "dcm/contact/contact_workspace.hpp"
+#include "dcm/contact/triangle_contact.hpp"
 #include "geometry/box_pairs.hpp"
 
 namespace acinus::coupling {
@@ -75,6 +76,47 @@ void find_pair(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
   for (Contact& k : found) k.depth = depth;
 }
 
+/// Contacts of the triangles of one surface with one sphere.
+void find_triangle_pair(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
+                        const cbm::ContactWorkspace& cbm_work, std::pair<int, int> pair,
+                        double reach, std::vector<Contact>& found) {
+  found.clear();
+  const std::size_t body = pair.first, sphere = pair.second;
+  const std::size_t lane = dcm_work.lane_of_body[body];
+  const Vec3 center = cbm::center_of(in.cbm.state, sphere);
+  const double radius = in.cbm.cells.radius[sphere];
+  const double adhesion = std::sqrt(in.dcm.params[in.dcm.state.group[lane / kLanes].type].adhesion *
+                                    in.cbm.params[in.cbm.state.type[sphere]].adhesion);
+  const contact::MaugisLaw law = dcm::maugis_law(
+      in.dcm.options,
+      {in.dcm.options.adhesion_factor * adhesion, surface_modulus(in.cbm, cbm_work, sphere)});
+  const Contact like{.a = pair.first, .b = pair.second, .partner = contact::Partner::kSphere};
+  const std::vector<contact::CurvedTriangle>& triangle = dcm_work.triangles.curved[body];
+  for (std::size_t t = 0; t < triangle.size(); ++t) {
+    const Vec3 d = triangle[t].circumcenter - center;
+    const double distance = d.norm();
+    if (!(distance > 0) || distance > radius + triangle[t].circumradius + reach) continue;
+    const Vec3 outward = d / distance;
+    Contact k = like;
+    k.point = static_cast<int>(t);
+    dcm::add_object_contacts(law, triangle[t], {center + radius * outward, outward, 0, 1 / radius},
+                             k, &center, found);
+  }
+}
+
+/// Appends what was found of each pair and notes the area of each.
+/// @param touching  (pair, contact) -> um^2
+template <class Touching>
+void gather_pairs(InterfaceWorkspace& work, contact::ContactList& contacts, Touching touching) {
+  for (std::size_t p = 0; p < work.near.size(); ++p) {
+    double area = 0;
+    for (const Contact& m : work.found[p]) area += touching(p, m);
+    if (area > 0) work.area.emplace_back(work.near[p].second, area);
+    contacts.all.insert(contacts.all.end(), work.found[p].begin(), work.found[p].end());
+  }
+  contacts.close(contact::ContactKind::kInterface);
+}
+
 /// Candidate pairs of surfaces and spheres (broad phase).
 void find_near(const InterfaceInput& in, double range, dcm::ContactWorkspace& dcm_work,
                const cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work) {
@@ -120,7 +162,8 @@ void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
   if (dcm_work.body.empty() || in.cbm.state.n_cell() == 0) return;
   const dcm::ContactParams& c = in.dcm.options;
   const std::span<const double> radius = in.dcm.lanes.radius, sphere_radius = in.cbm.cells.radius;
-  double range = 0;
+  const bool triangles = c.law == dcm::ContactLaw::kMaugisDugdale;
+  double range = triangles ? dcm_work.lists.options.range : 0;
   for (std::size_t k = 0; k < dcm_work.body.size(); ++k)
     range = std::max(
         range, dcm::contact_range(c, *dcm_work.body[k].topology, radius[dcm_work.lane_of_body[k]]));
@@ -128,20 +171,8 @@ void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
   const auto& pairs = work.near;
   auto& found = work.found;
   if (found.size() < pairs.size()) found.resize(pairs.size());
-  for_each_index(pairs.size(), true,
-                 [&](std::size_t p) { find_pair(in, dcm_work, pairs[p], range, found[p]); });
-  for (std::size_t p = 0; p < pairs.size(); ++p) {
-    const auto [body, sphere] = pairs[p];
-    const std::size_t k = body, i = sphere;
-    const std::size_t lane = dcm_work.lane_of_body[k];
-    double area = 0;
-    for (const Contact& m : found[p]) {
-      const double share = contact::contact_share(m.gap, c.friction_range);
-      dcm_work.share[k][m.point] += share;
-      area +=
-          share * dcm::point_area(*dcm_work.body[k].topology, c.quadrature, m.point, radius[lane]);
-    }
-    if (area > 0) work.area.emplace_back(sphere, area);
+  for (const auto& [body, sphere] : pairs) {
+    const std::size_t lane = dcm_work.lane_of_body[body], i = sphere;
     // A deformable neighbour counts in the sphere's overlap with its reference radius, by the
     // distance of the centres alone: whether surfaces touch changes from step to step, and with it
     // the modulus would.
@@ -152,9 +183,41 @@ void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
           (dcm::cell_center(in.dcm.state, lane) - cbm::center_of(in.cbm.state, i)).norm() / reach;
       cbm::count_overlap(cbm_work, i, std::max(relative, 0.0), 1);
     }
-    contacts.all.insert(contacts.all.end(), found[p].begin(), found[p].end());
   }
-  contacts.close(contact::ContactKind::kInterface);
+  if (triangles) return;
+  for_each_index(pairs.size(), true,
+                 [&](std::size_t p) { find_pair(in, dcm_work, pairs[p], range, found[p]); });
+  gather_pairs(work, contacts, [&](std::size_t p, const Contact& m) {
+    const std::size_t k = pairs[p].first;
+    const double share = contact::contact_share(m.gap, c.friction_range);
+    dcm_work.share[k][m.point] += share;
+    return share * dcm::point_area(*dcm_work.body[k].topology, c.quadrature, m.point,
+                                   radius[dcm_work.lane_of_body[k]]);
+  });
+}
+
+void find_triangle_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
+                             const cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work,
+                             contact::ContactList& contacts) {
+  if (dcm_work.body.empty() || in.cbm.state.n_cell() == 0) return;
+  const double reach = dcm_work.lists.options.range;
+  dcm::refresh_curved_triangles(dcm_work);
+  for_each_index(work.near.size(), true, [&](std::size_t p) {
+    find_triangle_pair(in, dcm_work, cbm_work, work.near[p], reach, work.found[p]);
+  });
+  gather_pairs(work, contacts, [](std::size_t, const Contact& m) { return m.touching; });
+  dcm::add_triangle_shares(contacts.interface(), dcm_work);
+}
+
+double surface_modulus(const cbm::ContactInput& in, const cbm::ContactWorkspace& work,
+                       std::size_t sphere) {
+  const cbm::Params& p = in.params[in.state.type[sphere]];
+  double young = in.state.young[sphere];
+  if (p.correction.corrects())
+    young = cbm::corrected_modulus(p.correction, young,
+                                   cbm::relative_overlap(work, sphere, p.correction))
+                .value;
+  return young / (1 - p.poisson * p.poisson);
 }
 
 void add_interface_areas(const InterfaceWorkspace& work, cbm::ContactWorkspace& cbm_work) {
@@ -172,6 +235,16 @@ void add_interface_loads(const InterfaceInput& in, const dcm::ContactWorkspace& 
   links.resize(at + contacts.interface().size());
   std::size_t number = contacts.first(contact::ContactKind::kInterface);
   for (Contact& k : contacts.of(contact::ContactKind::kInterface)) {
+    solve::Link& link = links.link[at];
+    link.b = sphere_side(in, k);
+    const auto contact_number = static_cast<std::uint32_t>(number++);
+    if (dcm::is_triangle_contact(in.dcm.options, k)) {
+      dcm::complete_triangle_contact(in.dcm, dcm_work,
+                                     in.params.friction_factor * in.params.friction, k, link,
+                                     links.load[at]);
+      links.load[at++].contact = contact_number;
+      continue;
+    }
     const contact::SurfaceBody& body = dcm_work.body[k.a];
     const double radius = in.dcm.lanes.radius[dcm_work.lane_of_body[k.a]];
     const contact::Quadrature quadrature = in.dcm.options.quadrature;
@@ -189,13 +262,9 @@ void add_interface_loads(const InterfaceInput& in, const dcm::ContactWorkspace& 
     k.force = -area * contact::cohesive_traction(law.cohesive, k.gap);
     k.slope = area * (contact::cohesive_stiffness(law.cohesive, k.gap) + law.hardening);
     k.friction = static_cast<float>(friction);
-    solve::Link& link = links.link[at];
     link.a = dcm::side_a(in.dcm, dcm_work, k);
-    link.b = sphere_side(in, k);
     solve::set_law(k.slope, friction, k.gap, k.normal, link);
-    links.load[at] = {k.normal, k.force, area * law.cohesive.repulsion, k.gap,
-                      static_cast<std::uint32_t>(number)};
-    ++number;
+    links.load[at] = {k.normal, k.force, area * law.cohesive.repulsion, k.gap, contact_number};
     ++at;
   }
 }

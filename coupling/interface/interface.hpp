@@ -83,6 +83,11 @@ struct Compliance {
 /// Series stiffness k_s.   @param depth  um
 Compliance compute_compliance(double repulsion, const SphereSurface& sphere, double depth);
 
+/// Modulus of the surface of a sphere, kPa, E/(1 - nu^2): corrected at its overlap with others.
+/// @pre overlaps are complete
+double surface_modulus(const cbm::ContactInput& in, const cbm::ContactWorkspace& work,
+                       std::size_t sphere);
+
 /// Input of the interface functions.
 struct InterfaceInput {
   dcm::ContactInput dcm;
@@ -93,10 +98,19 @@ struct InterfaceInput {
 /// Searches all interface contacts and appends them. Adds their touching shares to the surface
 /// points. If overlaps are counted, adds theirs to the spheres, young ones included: a deformable
 /// cell is a neighbour of full strength.
-/// @pre dcm::find_contacts, and cbm::compute_overlaps if there is a correction
+/// @pre dcm::find_contacts, and cbm::compute_overlaps if there is a correction. With contacts of
+///     triangles only overlaps are counted: find_triangle_interface follows.
 void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
                     cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work,
                     contact::ContactList& contacts);
+
+/// Searches the interface contacts of triangles by the paper's law: the sphere of a triangle with
+/// the sphere of a cell [VanLiedekerke2020, section 2.1]. The modulus of a sphere is that at its
+/// overlap.
+/// @pre find_interface, and overlaps are complete
+void find_triangle_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
+                             const cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work,
+                             contact::ContactList& contacts);
 
 /// Adds contact areas to the spheres.   @pre find_interface, then cbm::find_contacts
 void add_interface_areas(const InterfaceWorkspace& work, cbm::ContactWorkspace& cbm_work);

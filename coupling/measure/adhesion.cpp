@@ -17,14 +17,14 @@ double range_of(const World& world, const Workspace& w, int body) {
 }
 
 bool adheres(const World& world, const Workspace& w, const contact::Contact& k) {
-  if (dcm::is_between_triangles(world.params.dcm_contact, k)) return true;
-  return k.partner == contact::Partner::kSurface && !k.is_fold() && k.gap < range_of(world, w, k.a);
+  if (k.partner != contact::Partner::kSurface || k.is_fold()) return false;
+  return dcm::is_triangle_contact(world.params.dcm_contact, k) || k.gap < range_of(world, w, k.a);
 }
 
 /// Adhering area of a contact, um^2.
 double area_of(const World& world, const Workspace& w, const contact::Contact& k) {
   const dcm::ContactParams& options = world.params.dcm_contact;
-  if (dcm::is_between_triangles(options, k)) return k.touching;
+  if (dcm::is_triangle_contact(options, k)) return k.touching;
   const std::size_t a = k.a;
   return 0.5 * dcm::point_area(*w.dcm.body[a].topology, options.quadrature, k.point,
                                w.lanes.radius[w.dcm.lane_of_body[a]]);
@@ -46,7 +46,7 @@ Adhesion measure_adhesion(const World& world, const Workspace& w) {
     const contact::PointStencil stencil = dcm::stencil_of(options, body, k);
     for (int m = 0; m < stencil.n; ++m)
       if (stencil.weight[m] > 0) adhesion.node[first[a] + stencil.node[m]] = 1;
-    if (!dcm::is_between_triangles(options, k)) continue;  // points of b are seen from b
+    if (!dcm::is_triangle_contact(options, k)) continue;  // points of b are seen from b
     const std::size_t b = k.b;
     for (const int node : (*w.dcm.body[b].triangle)[k.triangle]) adhesion.node[first[b] + node] = 1;
   }

@@ -23,11 +23,13 @@ void search_contacts(const InterfaceInput& in, Workspace& w) {
   w.cbm.overlap_sum.clear();
   if (cbm::has_correction(in.cbm.params)) cbm::compute_overlaps(in.cbm, w.cbm);
   find_interface(in, w.dcm, w.cbm, w.interface, w.contacts);
-  // A process knows of a ghost cell only its contacts with own cells: shares are exchanged.
-  exchange_shares(w);
   const SphereExchange spheres = plan_sphere_exchange(w);
   exchange_values(w, spheres, w.cbm.overlap_sum);
   exchange_values(w, spheres, w.cbm.overlap_count);
+  if (in.dcm.options.law == dcm::ContactLaw::kMaugisDugdale)
+    find_triangle_interface(in, w.dcm, w.cbm, w.interface, w.contacts);
+  // A process knows of a ghost cell only its contacts with own cells: shares are exchanged.
+  exchange_shares(w);
   cbm::find_contacts(in.cbm, w.cbm, w.contacts, w.system.point_links);
   exchange_values(w, spheres, w.cbm.coupling);
   cbm::add_coupling(w.cbm, w.contacts.of(contact::ContactKind::kSphereObstacle),

@@ -24,7 +24,9 @@ contact::SearchOptions search_options(const ContactInput& in) {
     if (state.active(l))
       range =
           std::max(range, contact_range(c, *state.group[l / kLanes].topology, in.lanes.radius[l]));
-  return {c.quadrature, range, c.max_depth, c.skin, 2 * kSelfGap};
+  const bool triangles = c.law == ContactLaw::kMaugisDugdale;
+  if (triangles) range = triangle_reach(in);
+  return {c.quadrature, range, c.max_depth, c.skin, 2 * kSelfGap, triangles};
 }
 
 /// Touching share of each point, summed over its contacts.
@@ -41,10 +43,13 @@ void compute_shares(const ContactInput& in, const contact::ContactList& contacts
     for (const Contact& s : std::ranges::equal_range(
              points ? contacts.surface() : std::span<const Contact>{}, number, {}, &Contact::a))
       if (!s.is_fold()) share[s.point] += contact::contact_share(s.gap, range);
-    for (const Contact& o : std::ranges::equal_range(contacts.obstacle(), number, {}, &Contact::a))
+    for (const Contact& o : std::ranges::equal_range(
+             points ? contacts.obstacle() : std::span<const Contact>{}, number, {}, &Contact::a))
       if (!o.only_pushes()) share[o.point] += contact::contact_share(o.gap, range);
   });
-  if (!points) add_triangle_shares(contacts, work);
+  if (points) return;
+  add_triangle_shares(contacts.surface(), work);
+  add_triangle_shares(contacts.obstacle(), work);
 }
 
 void append(const std::vector<Contact>& more, std::vector<Contact>& all) {
@@ -116,7 +121,8 @@ void refresh_lists(const ContactInput& in, ContactWorkspace& work) {
 void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::ContactList& contacts) {
   const contact::SearchOptions options = search_options(in);
   std::vector<Contact>& all = contacts.all;
-  if (in.options.law == ContactLaw::kMaugisDugdale)
+  const bool triangles = in.options.law == ContactLaw::kMaugisDugdale;
+  if (triangles)
     find_triangle_contacts(in, work, all);
   else
     find_point_contacts(in, options, work, all);
@@ -128,7 +134,9 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
     work.obstacle[k].clear();
     const std::size_t lane = work.lane_of_body[k];
     if ((work.constrained.empty() || work.constrained[lane] == 0) && !work.is_ghost(lane))
-      find_obstacle_contacts(in, work, static_cast<int>(k), options.range, work.obstacle[k]);
+      triangles
+          ? find_triangle_obstacles(in, work, static_cast<int>(k), options.range, work.obstacle[k])
+          : find_obstacle_contacts(in, work, static_cast<int>(k), options.range, work.obstacle[k]);
   });
   for (const auto& o : work.obstacle) append(o, all);
   contacts.close(contact::ContactKind::kObstacle);

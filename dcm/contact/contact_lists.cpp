@@ -31,7 +31,8 @@ bool is_ghost(const ListInput& in, std::size_t body) {
 bool made_alike(const ContactLists& lists, const ListInput& in) {
   const contact::SearchOptions &a = lists.options, &b = in.options;
   return a.quadrature == b.quadrature && a.max_depth == b.max_depth && a.skin == b.skin &&
-         a.self_range == b.self_range && lists.n_fixed == in.fixed.size();
+         a.self_range == b.self_range && a.triangles == b.triangles &&
+         lists.n_fixed == in.fixed.size();
 }
 
 /// True if the listed pairs include all near ones, of the same bodies.

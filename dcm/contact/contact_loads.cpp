@@ -77,7 +77,21 @@ struct Completion {
             m.mirror ? 0 : share * params_of(k.a).vessel_friction, k.gap};
   }
 
+  /// Friction of a contact of a triangle, nN s/um^3.
+  double triangle_friction(const Contact& k) const {
+    if (k.partner == Partner::kSurface)
+      return in.options.friction_factor * in.options.cell_friction;
+    return contact::material_of(in.boundary, k.partner, k.b).mirror
+               ? 0
+               : params_of(k.a).vessel_friction;
+  }
+
   void complete(Contact& k, solve::Link& link, solve::LinkLoad& load) const {
+    if (is_triangle_contact(in.options, k)) {
+      complete_triangle_contact(in, work, triangle_friction(k), k, link, load);
+      link.b = side_b(in, work, k);
+      return;
+    }
     const PointLaw law = k.partner == Partner::kSurface ? surface_law(k) : obstacle_law(k);
     const double friction = law.area * law.friction;
     k.force = -law.area * contact::cohesive_traction(law.cohesive, law.clearance);
@@ -102,14 +116,10 @@ void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
   const Completion completion{in, work};
   const std::size_t first = links.size(), n = contacts.first(contact::ContactKind::kInterface);
   links.resize(first + n);
-  const bool triangles = in.options.law == ContactLaw::kMaugisDugdale;
   for_each_index(n, worth_threads(in.state.n_row()), [&](std::size_t k) {
     Contact& c = contacts.all[k];
     solve::LinkLoad& load = links.load[first + k];
-    if (triangles && is_between_triangles(in.options, c))
-      complete_triangle_contact(in, work, c, links.link[first + k], load);
-    else
-      completion.complete(c, links.link[first + k], load);
+    completion.complete(c, links.link[first + k], load);
     load.contact = static_cast<std::uint32_t>(k);
   });
 }

@@ -58,7 +58,7 @@ double point_stretch(const contact::SurfaceBody& b, contact::Quadrature q, int p
 
 contact::PointStencil stencil_of(const ContactParams& c, const contact::SurfaceBody& body,
                                  const Contact& o) {
-  if (is_between_triangles(c, o))
+  if (is_triangle_contact(c, o))
     return {3, (*body.triangle)[o.point], Contact::weights_at(o.place_a)};
   return probe_stencil(c, body, o);
 }

@@ -25,13 +25,13 @@ namespace acinus::dcm {
 /// compliance of the wall.
 inline constexpr double kGuardShare = 0.25, kGuardGap = 0.05;
 
-/// Test for a contact of two triangles. Its place on side a is its own, not that of a point.
-inline bool is_between_triangles(const ContactParams& c, const contact::Contact& k) {
-  return c.law == ContactLaw::kMaugisDugdale && k.partner == contact::Partner::kSurface &&
-         !k.is_fold();
+/// Test for a contact of a triangle. Its place on side a is its own, not that of a point.
+inline bool is_triangle_contact(const ContactParams& c, const contact::Contact& k) {
+  return c.law == ContactLaw::kMaugisDugdale && k.partner != contact::Partner::kNucleus &&
+         k.point != contact::kWhole && !k.is_fold();
 }
 
-/// Stencil of a contact: that of its point, or of its place if it is between triangles.
+/// Stencil of a contact: that of its point, or of its place if it is of a triangle.
 contact::PointStencil stencil_of(const ContactParams& c, const contact::SurfaceBody& body,
                                  const contact::Contact& contact);
 

@@ -27,7 +27,7 @@ solve::Side side_b(const ContactInput& in, const ContactWorkspace& work,
   if (k.partner == contact::Partner::kVessel) {
     const contact::SurfaceBody& a = work.body[k.a];
     return contact::vessel_side(in.boundary.vessels, in.vessel_row, k.b,
-                                contact::point_position(a, probe_stencil(in.options, a, k)));
+                                contact::point_position(a, stencil_of(in.options, a, k)));
   }
   if (k.partner != contact::Partner::kSurface) return solve::Side::nowhere();
   const std::size_t body = k.b;

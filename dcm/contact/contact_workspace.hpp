@@ -33,7 +33,8 @@ struct ContactInput {
 /// Scratch of the search between triangles.
 struct TriangleContactWorkspace {
   std::vector<std::vector<contact::CurvedTriangle>> curved;  ///< [body][triangle]
-  std::vector<std::vector<contact::Contact>> found;          ///< [body] that is side a
+  std::vector<std::vector<contact::CurvedTriangle>> fixed;   ///< [static mesh][triangle]
+  std::vector<std::vector<contact::Contact>> found;          ///< [pair of bodies]
 };
 
 /// Scratch of the contact search. Bodies are the cells in lane order, empty lanes left out.

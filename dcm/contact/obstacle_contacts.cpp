@@ -230,13 +230,12 @@ void take_wall_contacts(const ContactInput& in, ContactWorkspace& work, std::vec
   };
   for (const Contact& k : all) {
     if (!is_at_wall(k)) continue;
-    work.wall[k.a].push_back({.a = k.a,
-                              .point = k.point,
-                              .b = mesh.segment[k.triangle],
-                              .partner = Partner::kVessel,
-                              .stiffness = 0,
-                              .normal = k.normal,
-                              .gap = k.gap});
+    Contact at_vessel = k;
+    at_vessel.b = mesh.segment[k.triangle];
+    at_vessel.partner = Partner::kVessel;
+    at_vessel.triangle = -1;
+    at_vessel.place = {};
+    work.wall[k.a].push_back(at_vessel);
   }
   std::erase_if(all, is_at_wall);
 }

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <span>
 
 #include "contact/candidates.hpp"
 #include "contact/maugis_overlap.hpp"
-#include "contact/maugis_triangles.hpp"
 #include "core/parallel/threads.hpp"
-#include "dcm/contact/contact_bodies.hpp"
 #include "dcm/contact/contact_params.hpp"
+#include "dcm/contact/contact_points.hpp"
 #include "dcm/contact/contact_sides.hpp"
-#include "geometry/box_pairs.hpp"
 
 namespace acinus::dcm {
 namespace {
@@ -32,70 +32,66 @@ std::array<float, 2> rounded(const std::array<double, 3>& w) {
   return {static_cast<float>(w[0]), static_cast<float>(w[1])};
 }
 
+double adhesion_of(const ContactInput& in, const ContactWorkspace& work, int body) {
+  return in.params[in.state.group[work.lane_of_body[body] / kLanes].type].adhesion;
+}
+
+PartnerSurface surface_of(const ContactParams& c, const contact::Material& m) {
+  return {c.adhesion_factor * m.adhesion, m.young / (1 - m.poisson * m.poisson)};
+}
+
 contact::MaugisLaw law_between(const ContactInput& in, const ContactWorkspace& work, int a, int b) {
-  const auto adhesion_of = [&](int body) {
-    return in.params[in.state.group[work.lane_of_body[body] / kLanes].type].adhesion;
-  };
-  const ContactParams& c = in.options;
-  const double adhesion = c.adhesion_factor * std::sqrt(adhesion_of(a) * adhesion_of(b));
-  return {c.modulus, adhesion, adhesion / c.cohesive_range, c.max_radius};
-}
-
-/// Largest gap at which two spheres exert forces on each other, um: it grows with the radius.
-double largest_gap(const contact::MaugisLaw& law) {
-  if (law.adhesion == 0) return 0;
-  return -contact::least_overlap(
-      {{law.max_radius, law.modulus, law.adhesion}, law.cohesive_stress});
-}
-
-bool are_constrained(const ContactWorkspace& work, int a, int b) {
-  return !work.body_constrained.empty() && work.body_constrained[a] != 0 &&
-         work.body_constrained[b] != 0;
-}
-
-/// Triangles of a body near a box.
-std::vector<int> triangles_near(const SurfaceBody& body, const Box& box, double reach) {
-  std::vector<int> near;
-  const Box around = box.grown(reach + *std::ranges::max_element(body.reach));
-  for (std::size_t t = 0; t < body.center.size(); ++t)
-    if (around.contains(body.center[t])) near.push_back(static_cast<int>(t));
-  return near;
+  const std::size_t n = work.body.size(), k = b;
+  if (k >= n)  // the mesh about the vessels comes last
+    return maugis_law(in.options, surface_of(in.options, k - n < in.boundary.meshes.size()
+                                                             ? in.boundary.meshes[k - n].material
+                                                             : in.boundary.vessels.material));
+  const double adhesion = std::sqrt(adhesion_of(in, work, a) * adhesion_of(in, work, b));
+  return maugis_law(
+      in.options, {in.options.adhesion_factor * adhesion, std::numeric_limits<double>::infinity()});
 }
 
 /// Search for all contacts of two bodies.
 struct BodyPair {
   const ContactWorkspace& work;
   contact::MaugisLaw law;
-  int a, b;
-  double reach;  ///< um, largest distance of places of two triangles in contact
+  const contact::Candidates& list;
+  double reach;  ///< um
+
+  bool is_fixed() const { return static_cast<std::size_t>(list.body_b) >= work.body.size(); }
+  const SurfaceBody& body_b() const { return contact::body_at(work.body, work.fixed, list.body_b); }
+  const std::vector<CurvedTriangle>& curved_b() const {
+    const std::size_t k = list.body_b;
+    return is_fixed() ? work.triangles.fixed[k - work.body.size()] : work.triangles.curved[k];
+  }
 
   void find(std::vector<Contact>& out) const {
-    const SurfaceBody &body_a = work.body[a], &body_b = work.body[b];
-    const std::vector<int> near_a = triangles_near(body_a, body_b.box, reach),
-                           near_b = triangles_near(body_b, body_a.box, reach);
-    for (const int s : near_a)
-      for (const int t : near_b) {
-        const CurvedTriangle &at_a = work.triangles.curved[a][s],
-                             &at_b = work.triangles.curved[b][t];
+    const std::vector<CurvedTriangle>&a = work.triangles.curved[list.body_a], &b = curved_b();
+    for (std::size_t n = 0; n < list.point.size(); ++n) {
+      const CurvedTriangle& at_a = a[list.point[n]];
+      for (std::uint32_t e = list.start[n]; e < list.start[n + 1]; ++e) {
+        const CurvedTriangle& at_b = b[list.triangle[e]];
         const double near = at_a.circumradius + at_b.circumradius + reach;
         if ((at_a.circumcenter - at_b.circumcenter).squaredNorm() > near * near) continue;
         const contact::TriangleContact k = contact::compute_triangle_contact(law, at_a, at_b);
         for (const contact::TrianglePart* part : {&k.push, &k.pull})
-          if (part->area > 0) out.push_back(record(s, t, k.normal, *part));
+          if (part->area > 0)
+            out.push_back(record(list.point[n], list.triangle[e], k.normal, *part));
       }
+    }
   }
 
   Contact record(int s, int t, const Vec3& normal_a_to_b, const contact::TrianglePart& part) const {
     Contact k;
-    k.a = a;
+    k.a = list.body_a;
     k.point = s;
-    k.b = b;
+    k.b = is_fixed() ? list.body_b - static_cast<int>(work.body.size()) : list.body_b;
     k.triangle = t;
-    k.partner = contact::Partner::kSurface;
+    k.partner = is_fixed() ? contact::Partner::kMesh : contact::Partner::kSurface;
     k.normal = -normal_a_to_b;
     k.place_a = rounded(part.place_a);
-    const Corners at_b = corners_of(work.body[b], t);
-    const Vec3 x = place_at(corners_of(work.body[a], s), Contact::weights_at(k.place_a));
+    const Corners at_b = corners_of(body_b(), t);
+    const Vec3 x = place_at(corners_of(work.body[k.a], s), Contact::weights_at(k.place_a));
     const std::array<double, 3> w = contact::weights_along(k.normal, at_b, x);
     k.place = rounded(w);
     k.gap = k.normal.dot(x - place_at(at_b, w));
@@ -106,85 +102,183 @@ struct BodyPair {
   }
 };
 
-/// Search for contacts of each cell with itself, by points.
-void find_folds(const contact::SearchOptions& options, ContactWorkspace& work) {
-  const std::vector<contact::Candidates>& pair = work.lists.pair;
-  for_each_index(pair.size(), true, [&](std::size_t k) {
-    if (pair[k].body_a != pair[k].body_b || pair[k].point.empty()) return;
-    contact::find_contacts(pair[k], work.body, work.fixed, options, relative_motion(work.lists, k),
-                           work.triangles.found[pair[k].body_a]);
-  });
+/// Triangles of a body and the search for their contacts with objects.
+struct ObjectSearch {
+  const std::vector<CurvedTriangle>& triangle;
+  int body;
+  double reach;  ///< um
+  std::vector<Contact>& out;
+
+  void find(int t, const contact::Gap& at, double curvature, const contact::MaugisLaw& law,
+            const Contact& like) const {
+    const CurvedTriangle& s = triangle[t];
+    if (at.gap > s.circumradius + reach) return;
+    Contact k = like;
+    k.a = body;
+    k.point = t;
+    add_object_contacts(law, s, {s.circumcenter - at.gap * at.normal, at.normal, 0, curvature}, k,
+                        nullptr, out);
+  }
+};
+
+/// Search for the contacts with the nearest segment of the network of vessels.
+void find_at_vessels(const ContactInput& in, const SegmentCandidates& list,
+                     const ObjectSearch& search) {
+  const contact::Vessels& vessels = in.boundary.vessels;
+  const contact::MaugisLaw law = maugis_law(in.options, surface_of(in.options, vessels.material));
+  for (std::size_t s = 0; s < list.site.size(); ++s) {
+    const int t = list.site[s];
+    contact::Gap nearest;
+    int segment = -1;
+    for (std::uint32_t e = list.start[s]; e < list.start[s + 1]; ++e) {
+      const contact::Gap g = contact::gap_to_segment(vessels.network, list.segment[e],
+                                                     search.triangle[t].circumcenter);
+      if (segment >= 0 && g.gap >= nearest.gap) continue;
+      nearest = g;
+      segment = list.segment[e];
+    }
+    // The mean curvature of a tube, as that of the triangles.
+    if (segment >= 0)
+      search.find(t, nearest, 0.5 / nearest.radius, law,
+                  {.b = segment, .partner = contact::Partner::kVessel});
+  }
 }
 
 }  // namespace
+
+contact::MaugisLaw maugis_law(const ContactParams& c, const PartnerSurface& partner) {
+  contact::MaugisLaw law;
+  law.modulus = 1 / (1 / c.modulus + 1 / partner.modulus);
+  law.adhesion = partner.adhesion;
+  law.cohesive_stress = partner.adhesion / c.cohesive_range;
+  law.max_radius = c.max_radius;
+  return law;
+}
+
+double maugis_reach(const contact::MaugisLaw& law, double max_depth) {
+  if (law.adhesion == 0) return max_depth;
+  // The range grows with the radius.
+  return max_depth -
+         contact::least_overlap({{law.max_radius, law.modulus, law.adhesion}, law.cohesive_stress});
+}
+
+double triangle_reach(const ContactInput& in) {
+  double adhesion = in.boundary.vessels.material.adhesion;
+  for (const Params& p : in.params) adhesion = std::max(adhesion, p.adhesion);
+  for (const auto& m : in.boundary.meshes) adhesion = std::max(adhesion, m.material.adhesion);
+  contact::for_each_wall(in.boundary, [&](auto, auto, const auto& wall) {
+    adhesion = std::max(adhesion, wall.material.adhesion);
+  });
+  const PartnerSurface most{in.options.adhesion_factor * adhesion,
+                            std::numeric_limits<double>::infinity()};
+  return maugis_reach(maugis_law(in.options, most), in.options.max_depth);
+}
+
+void refresh_curved_triangles(ContactWorkspace& work) {
+  std::vector<std::vector<CurvedTriangle>>& curved = work.triangles.curved;
+  for_each_index(curved.size(), true, [&](std::size_t k) {
+    if (work.is_complete[k] != 0 && curved[k].empty())
+      curved[k] = contact::make_curved_triangles(work.body[k].node, *work.body[k].triangle);
+  });
+}
 
 void find_triangle_contacts(const ContactInput& in, ContactWorkspace& work,
                             std::vector<Contact>& out) {
   TriangleContactWorkspace& scratch = work.triangles;
   const std::size_t n = work.body.size();
   scratch.curved.resize(n);
-  scratch.found.resize(n);
-  std::vector<Box> boxes;
-  for (const SurfaceBody& b : work.body) boxes.push_back(b.box);
-  double gap = 0;
-  for (int k = 0; k < static_cast<int>(n); ++k)
-    gap = std::max(gap, largest_gap(law_between(in, work, k, k)));
-  const double reach = gap + in.options.max_depth;
-  auto pairs = contact::find_pairs(boxes, reach);
-  if (!work.ghost.empty()) {
-    std::erase_if(pairs, [&](const std::pair<int, int>& p) {
-      return work.is_ghost_body(p.first) && work.is_ghost_body(p.second);
-    });
-    std::vector<int> near;
-    for (const auto& [a, b] : pairs) near.insert(near.end(), {a, b});
-    complete_bodies(in.state, near, work);
+  if (scratch.fixed.size() != work.fixed.size()) {
+    scratch.fixed.clear();
+    for (const SurfaceBody& b : work.fixed)
+      scratch.fixed.push_back(contact::make_curved_triangles(b.node, *b.triangle));
   }
+  for (std::vector<CurvedTriangle>& t : scratch.curved) t.clear();
+  refresh_curved_triangles(work);
 
-  for_each_index(n, true, [&](std::size_t k) {
+  const std::vector<contact::Candidates>& pair = work.lists.pair;
+  scratch.found.resize(pair.size());
+  for_each_index(pair.size(), true, [&](std::size_t k) {
+    const contact::Candidates& list = pair[k];
     scratch.found[k].clear();
-    if (work.is_complete[k] == 0) return;
-    scratch.curved[k] = contact::make_curved_triangles(work.body[k].node, *work.body[k].triangle);
-  });
-  find_folds(work.lists.options, work);
-
-  for_each_index(n, true, [&](std::size_t k) {
-    const int a = static_cast<int>(k);
-    for (const auto& [first, b] :
-         std::ranges::equal_range(pairs, a, {}, &std::pair<int, int>::first))
-      if (!are_constrained(work, a, b))
-        BodyPair{work, law_between(in, work, a, b), a, b, reach}.find(scratch.found[k]);
+    if (list.point.empty()) return;
+    if (list.body_a == list.body_b)
+      contact::find_contacts(list, work.body, work.fixed, work.lists.options,
+                             relative_motion(work.lists, k), scratch.found[k]);
+    else
+      BodyPair{work, law_between(in, work, list.body_a, list.body_b), list,
+               work.lists.options.range}
+          .find(scratch.found[k]);
   });
   out.clear();
   for (const auto& found : scratch.found) out.insert(out.end(), found.begin(), found.end());
 }
 
-void add_triangle_shares(const contact::ContactList& contacts, ContactWorkspace& work) {
+void find_triangle_obstacles(const ContactInput& in, const ContactWorkspace& work, int body,
+                             double reach, std::vector<Contact>& out) {
+  const ObjectSearch search{work.triangles.curved[body], body, reach, out};
+  const SurfaceBody& b = work.body[body];
+  const Vec3 middle = 0.5 * (b.box.low + b.box.high);
+  const double half = 0.5 * (b.box.high - b.box.low).norm();
+  contact::for_each_wall(in.boundary, [&](contact::Partner kind, int index, const auto& wall) {
+    const contact::MaugisLaw law = maugis_law(in.options, surface_of(in.options, wall.material));
+    if (contact::gap_to_wall(wall, middle, in.time).gap - half >= reach) return;
+    const double curvature = 1 / contact::shape_radius(wall, in.time);
+    for (std::size_t t = 0; t < search.triangle.size(); ++t)
+      search.find(static_cast<int>(t),
+                  contact::gap_to_wall(wall, search.triangle[t].circumcenter, in.time), curvature,
+                  law, {.b = index, .partner = kind});
+  });
+  if (!work.wall.empty())
+    out.insert(out.end(), work.wall[body].begin(), work.wall[body].end());
+  else if (!work.lists.segment[body].site.empty())
+    find_at_vessels(in, work.lists.segment[body], search);
+}
+
+void add_object_contacts(const contact::MaugisLaw& law, const CurvedTriangle& triangle,
+                         const contact::SphericalCap& object, const Contact& like,
+                         const Vec3* center, std::vector<Contact>& out) {
+  const contact::TriangleContact found = contact::compute_object_contact(law, triangle, object);
+  for (const contact::TrianglePart* part : {&found.push, &found.pull}) {
+    if (!(part->area > 0)) continue;
+    Contact k = like;
+    k.place_a = rounded(part->place_a);
+    const Vec3 x = place_at(triangle.corner, Contact::weights_at(k.place_a));
+    k.normal = center == nullptr ? Vec3(-found.normal) : Vec3((x - *center).normalized());
+    k.gap = k.normal.dot(x - object.middle);
+    k.touching = part->area;
+    k.force = part->force;
+    k.slope = part->slope;
+    out.push_back(k);
+  }
+}
+
+void add_triangle_shares(std::span<const Contact> contacts, ContactWorkspace& work) {
   const auto add = [&](int body, int triangle, double area) {
+    if (work.is_complete[body] == 0) return;
     const Corners x = corners_of(work.body[body], triangle);
     const double share = area / (0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm());
     for (int q = 0; q < 3; ++q) work.share[body][3 * triangle + q] += share;
   };
-  for (const Contact& k : contacts.surface()) {
+  for (const Contact& k : contacts) {
     if (k.is_fold()) continue;
     add(k.a, k.point, k.touching);
-    add(k.b, k.triangle, k.touching);
+    if (k.partner == contact::Partner::kSurface) add(k.b, k.triangle, k.touching);
   }
 }
 
-void complete_triangle_contact(const ContactInput& in, const ContactWorkspace& work, Contact& k,
-                               solve::Link& link, solve::LinkLoad& load) {
-  const double friction = in.options.friction_factor * in.options.cell_friction * k.touching;
-  k.friction = static_cast<float>(friction);
+void complete_triangle_contact(const ContactInput& in, const ContactWorkspace& work,
+                               double friction, Contact& k, solve::Link& link,
+                               solve::LinkLoad& load) {
+  k.friction = static_cast<float>(friction * k.touching);
   link.a = side_a(in, work, k);
-  link.b = side_b(in, work, k);
-  solve::set_law(k.slope, friction, k.gap, k.normal, link);
+  solve::set_law(k.slope, friction * k.touching, k.gap, k.normal, link);
   load = {k.normal, k.force, 0, 0};
 }
 
 void add_place_remainders(const ContactInput& in, const ContactWorkspace& work,
                           const contact::ContactList& contacts, std::vector<double>& force) {
   for (const Contact& k : contacts.surface()) {
-    if (k.is_fold()) continue;
+    if (!is_triangle_contact(in.options, k) || k.partner != contact::Partner::kSurface) continue;
     const Vec3 x = place_at(corners_of(work.body[k.a], k.point), Contact::weights_at(k.place_a));
     const std::array<double, 3> exact =
         contact::weights_along(k.normal, corners_of(work.body[k.b], k.triangle), x);

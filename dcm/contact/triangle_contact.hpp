@@ -1,36 +1,69 @@
 #pragma once
 /// Contacts of deformable cells triangle by triangle: the law of the model paper, Maugis-Dugdale
-/// (contact/maugis_triangles.hpp), for scenes that select it for comparison.
+/// (contact/maugis_triangles.hpp), for scenes that select it.
 ///
-/// Two triangles have up to two contacts, one where the stress between them is repulsive and one
-/// where it is attractive, each with the area of that stress. Both have places on both triangles,
-/// like all other contact records. Unlike points, which probe from both sides, triangles are paired
-/// once, from the cell with the lower number. Search and law are one here; friction, which depends
-/// on the areas, is added with the loads. Contacts of a cell with itself and with the boundary keep
-/// the law of points.
+/// A triangle has up to two contacts with a partner, one where the stress between them is repulsive
+/// and one where it is attractive, each with the area of that stress. Both have places on the
+/// triangle, and on that of side b if it has one, like all other contact records. Unlike points,
+/// which probe from both sides, triangles are paired once, from the cell with the lower number. A
+/// wall, a vessel or a sphere is met as the sphere that touches it at the place nearest to the
+/// triangle [VanLiedekerke2020, section 2.1]. Search and law are one here; friction, which depends
+/// on the areas, is added with the loads. Contacts of a cell with itself keep the law of points.
 
 #include <vector>
 
-#include "contact/curved_triangle.hpp"
+#include "contact/maugis_triangles.hpp"
 #include "contact/record.hpp"
 #include "dcm/contact/contact_workspace.hpp"
 #include "solve/system.hpp"
 
 namespace acinus::dcm {
 
-/// Search for all contacts between the surfaces of cells, written in order of side a with force,
-/// slope and area. Cost: all pairs of triangles within the boxes of two cells are visited.
-/// @pre refresh_lists, for contacts of cells with themselves
+/// Elastic constants of a partner, beside those of the law: the reduced modulus of the pair is in
+/// series with it.
+struct PartnerSurface {
+  double adhesion = 0;  ///< nN/um, W of the pair
+  double modulus = 0;   ///< kPa, E/(1 - nu^2); infinite: rigid
+};
+contact::MaugisLaw maugis_law(const ContactParams& options, const PartnerSurface& partner);
+
+/// Largest distance of a triangle from a partner that exerts a force on it, um.
+double maugis_reach(const contact::MaugisLaw& law, double max_depth);
+
+/// The same of all cells, walls, vessels and static meshes.
+double triangle_reach(const ContactInput& in);
+
+/// Recompute the curved triangles of complete bodies that have none of the present time.
+void refresh_curved_triangles(ContactWorkspace& work);
+
+/// Search for all contacts between the surfaces of cells and with static meshes, written in order
+/// of side a with force, slope and area.
+/// @pre refresh_lists
 void find_triangle_contacts(const ContactInput& in, ContactWorkspace& work,
                             std::vector<contact::Contact>& out);
 
-/// Add each contact's share of the area of its triangles to work.share, on sides a and b: all
-/// points of a triangle have the share of the triangle.
-void add_triangle_shares(const contact::ContactList& contacts, ContactWorkspace& work);
+/// Search for the contacts of the triangles of one body with walls and vessels; appends them.
+/// @param reach  um
+/// @pre find_triangle_contacts
+void find_triangle_obstacles(const ContactInput& in, const ContactWorkspace& work, int body,
+                             double reach, std::vector<contact::Contact>& out);
 
-/// Complete a contact between triangles and write its link.
+/// Append the contacts of one triangle with an object.
+/// @param like    sides of the contact, without places
+/// @param center  of a ball, through which the force acts so that it has no moment; null: none
+void add_object_contacts(const contact::MaugisLaw& law, const contact::CurvedTriangle& triangle,
+                         const contact::SphericalCap& object, const contact::Contact& like,
+                         const Vec3* center, std::vector<contact::Contact>& out);
+
+/// Add each contact's share of the area of its triangles to work.share, on side a and on side b if
+/// that is a cell: all points of a triangle have the share of the triangle.
+void add_triangle_shares(std::span<const contact::Contact> contacts, ContactWorkspace& work);
+
+/// Complete a contact of a triangle and write its link, but for side b.
+/// @param friction  nN s/um^3
 void complete_triangle_contact(const ContactInput& in, const ContactWorkspace& work,
-                               contact::Contact& contact, solve::Link& link, solve::LinkLoad& load);
+                               double friction, contact::Contact& contact, solve::Link& link,
+                               solve::LinkLoad& load);
 
 /// Add the force remainders that links lack because their places are rounded: 1e-7 of each force,
 /// moved between the corners on side b to the place along the normal from side a. The moment of a

@@ -9,8 +9,8 @@ void describe_law(Visitor& v, ContactBlock& b) {
   choice(
       v,
       {.name = "law",
-       .meaning = "force between two DCM cells: cohesive potential of the gap at contact points, "
-                  "or the paper's law between triangles, slow, to compare with"},
+       .meaning = "force between a DCM cell and what it touches: cohesive potential of the gap at "
+                  "contact points, or the paper's law between the spheres of triangles, slower"},
       b.law);
   v.when(b.law == dcm::ContactLaw::kMaugisDugdale, "law = maugis-dugdale", [&b](Visitor& w) {
     w.real({.name = "h0",

@@ -294,9 +294,8 @@ TEST(MaugisTriangles, ObjectsFollowTheCurveOfSpheres) {
         const Vec3 center(0, 0, curvature > 0 ? -1 / curvature : 0);
         const Vec3 normal =
             curvature > 0 ? Vec3((s.circumcenter - center).normalized()) : Vec3(Vec3::UnitZ());
-        const Vec3 place = curvature > 0
-                               ? Vec3(center + normal / curvature)
-                               : Vec3(s.circumcenter.x(), s.circumcenter.y(), 0);
+        const Vec3 place = curvature > 0 ? Vec3(center + normal / curvature)
+                                         : Vec3(s.circumcenter.x(), s.circumcenter.y(), 0);
         const TriangleContact k = compute_object_contact(law, s, {place, normal, 0, curvature});
         for (const TrianglePart* part : {&k.push, &k.pull}) {
           force -= part->force * k.normal.z();
@@ -311,8 +310,8 @@ TEST(MaugisTriangles, ObjectsFollowTheCurveOfSpheres) {
 // A ball in a hollow of 30 um, R^ = 15: to the order of Hertz, with the spheres shared by halves.
 TEST(MaugisTriangles, ABallInAHollowFollowsHertz) {
   const MaugisLaw law = {10, 0, 0};
-  const Body ball = test::make_sphere(geometry::shared_icosphere(642), 10, Vec3::Zero(),
-                                      Mat3::Identity(), true);
+  const Body ball =
+      test::make_sphere(geometry::shared_icosphere(642), 10, Vec3::Zero(), Mat3::Identity(), true);
   const double overlap = 0.1;
   const Vec3 center(0, 0, 20 + overlap);  // of the hollow, which the ball meets at z = -10
   double force = 0;

@@ -20,30 +20,18 @@ TEST(SceneContactLaw, ItsKeysAreRead) {
   EXPECT_EQ(parse_scene(kMinimal, "scene.json").contact.law, dcm::ContactLaw::kCohesive);
 }
 
-TEST(SceneContactErrors, MaugisDugdaleIsForDeformableCellsAlone) {
+TEST(SceneContactErrors, MaugisDugdaleActsBetweenTriangles) {
   const auto law = [](const std::string& more) {
     return with_block(R"("contact": {"law": "maugis-dugdale"})" + more);
   };
   const std::string start = R"(scene.json:1:22 /contact/law = "maugis-dugdale": )";
   EXPECT_EQ(failure(law("")), "");
-  EXPECT_EQ(failure(law(R"(, "walls": [{}])")),
-            start +
-                "is for deformable cells with nothing around them. Remove /walls, or choose "
-                "\"cohesive\"");
-  EXPECT_EQ(failure(law(""), {"model=cbm"}),
-            start +
-                "is for deformable cells alone. Set /cells/model to \"dcm\" for all cells, or "
-                "choose \"cohesive\"");
+  EXPECT_EQ(failure(law(R"(, "walls": [{}])")), "");
+  EXPECT_EQ(failure(law(""), {"model=cbm"}), "");
   EXPECT_EQ(failure(law(""), {"contact.quadrature=nodes"}),
             start + "acts between triangles. Set /contact/quadrature to \"3-point\"");
   EXPECT_EQ(failure(law(""), {"friction.form=nodes"}),
             start + "rubs where triangles press. Set /friction/form to \"surface\"");
-  EXPECT_EQ(failure(law(""), {"life.sleep=true"}),
-            start + "never leaves cells in balance, its force jumps. Set /life/sleep to false");
-  EXPECT_EQ(failure(law(""), {R"(cell_types.hepatocyte.cycle.time="24 h")"}),
-            start +
-                "is for cells that do not divide. Remove /cell_types/hepatocyte/cycle, or "
-                "choose \"cohesive\"");
   EXPECT_EQ(failure(with_block(R"("contact": {"h0": "20 nm"})")),
             R"(scene.json:1:21 /contact/h0 = "20 nm": is used only with law = maugis-dugdale. )"
             "Remove it");
