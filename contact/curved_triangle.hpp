@@ -26,10 +26,11 @@ CurvedTriangle make_curved_triangle(const std::array<Vec3, 3>& corner, double cu
 /// Spherical cap: the surface of a triangle's sphere above it, or the surface of an object around
 /// the place that is nearest to a triangle.
 struct SphericalCap {
-  Vec3 middle;            ///< um, centre of the rim; of an object, the place on its surface
-  Vec3 normal;            ///< unit, outward
-  double rim_radius = 0;  ///< um, at most the radius of the sphere
-  double curvature = 0;   ///< 1/um: 0 flat, negative of a hollow surface
+  Vec3 middle;             ///< um, centre of the rim; of an object, the place on its surface
+  Vec3 normal;             ///< unit, outward
+  double rim_radius = 0;   ///< um, at most the radius of the sphere
+  double curvature = 0;    ///< 1/um: 0 flat, negative of a hollow surface
+  bool is_object = false;  ///< the sphere is the surface itself, not an estimate from a mesh
 };
 SphericalCap cap_of(const CurvedTriangle& t);
 

@@ -11,9 +11,13 @@ namespace {
 
 using Triangle2 = std::array<Vec2, 3>;
 
-/// Least cosine between the normals of a triangle and of the contact plane. Below it the triangle
-/// is seen edge-on, and its projection is unrelated to the surface.
-constexpr double kFacing = 0.2;
+/// Cosines between the normals of a triangle and of the contact plane between which its contact
+/// fades in. Below, the triangle is seen edge-on, and its projection is unrelated to the surface.
+constexpr double kEdgeOn = 0.1, kFacing = 0.4;
+
+/// Curvature up to which caps share the sum of curvatures, fading from halves, 1/um: that of the
+/// larger radii of cells. Flat surfaces in a tissue vary by as much about 0.
+constexpr double kShared = 0.02;
 
 /// Increment of overlap for the difference quotient of the stress, um. Not smaller: at the rim of
 /// the contact the stress rises with an infinite slope.
@@ -81,9 +85,28 @@ MaugisPair make_pair(const MaugisLaw& law, double radius) {
   return {{radius, law.modulus, law.adhesion}, law.cohesive_stress};
 }
 
-/// True if two caps look at each other across their contact plane.
-bool face(const SphericalCap& a, const SphericalCap& b, const ContactPlane& plane) {
-  return a.normal.dot(plane.normal) > kFacing && b.normal.dot(plane.normal) < -kFacing;
+/// Step from 0 at low to 1 at high with continuous slope.
+double fade(double x, double low, double high) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+/// Share with which two caps that look at each other across their contact plane interact.
+double facing_share(const SphericalCap& a, const SphericalCap& b, const ContactPlane& plane) {
+  return fade(std::min(a.normal.dot(plane.normal), -b.normal.dot(plane.normal)), kEdgeOn, kFacing);
+}
+
+/// Curvatures of the spheres of two caps with the sum of theirs.
+struct SharedCurvature {
+  double a, b;
+};
+SharedCurvature share_curvature(const SphericalCap& a, const SphericalCap& b, double sum) {
+  const auto own_part = [](const SphericalCap& cap) {
+    if (cap.is_object) return cap.curvature < 0.0 ? 0.0 : 1.0;
+    return fade(cap.curvature, 0.0, kShared);
+  };
+  const double own = std::min(own_part(a), own_part(b)), half = 0.5 * sum;
+  return {half + own * (a.curvature - half), half + own * (b.curvature - half)};
 }
 
 /// Stress over a polygon, with the growth of its parts for an overlap larger by kDeeper.
@@ -115,13 +138,19 @@ TrianglePart part_of(const StressPart& stress, const Triangle2& flat) {
 SphericalCap widen(const SphericalCap& object, double rim_radius) {
   const double k = object.curvature, rim = std::min(rim_radius, 1.0 / std::abs(k));
   const double below = rim * rim * k / (1.0 + std::sqrt(std::max(0.0, 1.0 - rim * rim * k * k)));
-  return {object.middle - below * object.normal, object.normal, rim, k};
+  return {object.middle - below * object.normal, object.normal, rim, k, true};
 }
 
 TriangleContact contact_of(const MaugisLaw& law, const ContactPlane& plane, const SharedArea& area,
-                           const Triangle2& flat_a) {
+                           const Triangle2& flat_a, double share) {
   TriangleContact out;
-  const StressParts stress = integrate_over(law, plane, area);
+  StressParts stress = integrate_over(law, plane, area);
+  for (StressPart* part : {&stress.push, &stress.pull}) {
+    part->force *= share;
+    part->area *= share;
+    part->moment *= share;
+    part->growth *= share;
+  }
   out.normal = plane.normal;
   // Smaller parts are rounding of the integrals around areas that the polygon does not reach.
   constexpr double kLeastArea = 1e-9;
@@ -136,9 +165,8 @@ TriangleContact contact_of(const MaugisLaw& law, const ContactPlane& plane, cons
 
 ContactPlane compute_contact_plane(const SphericalCap& a, const SphericalCap& b,
                                    double max_radius) {
-  double k_a = a.curvature, k_b = b.curvature;
-  const double sum = std::max(k_a + k_b, 1.0 / max_radius);
-  if (k_a < 0.0 || k_b < 0.0 || k_a + k_b < sum) k_a = k_b = 0.5 * sum;
+  const double sum = std::max(a.curvature + b.curvature, 1.0 / max_radius);
+  const auto [k_a, k_b] = share_curvature(a, b, sum);
   if (k_a < kPlaneCurvature || k_b < kPlaneCurvature) {
     const bool flat_a = k_a < kPlaneCurvature;
     const SphericalCap &plane = flat_a ? a : b, &ball = flat_a ? b : a;
@@ -161,24 +189,26 @@ TriangleContact compute_triangle_contact(const MaugisLaw& law, const CurvedTrian
                                          const CurvedTriangle& b) {
   const SphericalCap cap_a = cap_of(a), cap_b = cap_of(b);
   const ContactPlane plane = compute_contact_plane(cap_a, cap_b, law.max_radius);
-  if (!face(cap_a, cap_b, plane)) return {};
+  const double share = facing_share(cap_a, cap_b, plane);
+  if (share == 0.0) return {};
   const PlaneFrame frame = make_frame(plane, a);
   const Triangle2 flat_a = frame.project(a), flat_b = frame.project(b);
   // Seen from a, the corners of b run clockwise.
   const SharedArea shared = intersect(flat_a, {flat_b[0], flat_b[2], flat_b[1]});
   if (shared.n < 3) return {};
-  return contact_of(law, plane, shared, flat_a);
+  return contact_of(law, plane, shared, flat_a, share);
 }
 
 TriangleContact compute_object_contact(const MaugisLaw& law, const CurvedTriangle& a,
                                        const SphericalCap& b) {
   const SphericalCap cap_a = cap_of(a), cap_b = widen(b, a.circumradius);
   const ContactPlane plane = compute_contact_plane(cap_a, cap_b, law.max_radius);
-  if (!face(cap_a, cap_b, plane)) return {};
+  const double share = facing_share(cap_a, cap_b, plane);
+  if (share == 0.0) return {};
   const Triangle2 flat = make_frame(plane, a).project(a);
   SharedArea area;
   for (const Vec2& x : flat) area.add(x);
-  return contact_of(law, plane, area, flat);
+  return contact_of(law, plane, area, flat, share);
 }
 
 TriangleForces compute_triangle_forces(const MaugisLaw& law, const CurvedTriangle& a,

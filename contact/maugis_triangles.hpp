@@ -32,10 +32,11 @@ struct ContactPlane {
   double radius;   ///< R^, um
 };
 
-/// Contact plane from the line of centres of two spheres. If one cap is concave, or both together
-/// are flatter than max_radius, both get half of the sum of curvatures: the gap between two
-/// surfaces depends, to the order of Hertz, on that sum alone, while the line between the nearly
-/// concentric centres of a hollow and a ball in it would be noise.
+/// Contact plane from the line of centres of two spheres. If one cap is concave, both get half of
+/// the sum of curvatures: the gap between two surfaces depends, to the order of Hertz, on that sum
+/// alone, while the line between the nearly concentric centres of a hollow and a ball in it would
+/// be noise. Meshes flatter than a radius of 50 um share gradually, so that no force jumps where a
+/// curvature changes its sign.
 ContactPlane compute_contact_plane(const SphericalCap& a, const SphericalCap& b, double max_radius);
 
 /// Barycentric weights of the place of a triangle on the line through x along the normal.

@@ -112,8 +112,13 @@ TEST(MaugisTriangles, UnequalSpheresPlaneAndHollow) {
   EXPECT_NEAR(unequal.overlap, sagitta(10, 0.1) + sagitta(20, 0.1), 1e-13);
   EXPECT_NEAR(unequal.point.norm(), 0.0, 1e-13);  // the radical plane is that of the common circle
   EXPECT_NEAR((unequal.normal - Vec3::UnitZ()).norm(), 0.0, 1e-12);
+  // A flat triangle shares the curvature by halves: two spheres of 20.
+  const ContactPlane flat = contact_plane(0.1, 0);
+  EXPECT_NEAR(flat.radius, 10, 1e-13);
+  EXPECT_NEAR(flat.overlap, 2 * sagitta(20, 0.1), 1e-13);
   // A plane is met as it is.
-  const ContactPlane plane = contact_plane(0.1, 0);
+  const ContactPlane plane = compute_contact_plane(cap_of(make_curved_triangle(low, 0.1)),
+                                                   {Vec3::Zero(), -Vec3::UnitZ(), 0, 0, true}, 1e3);
   EXPECT_NEAR(plane.radius, 10, 1e-13);
   EXPECT_NEAR(plane.overlap, sagitta(10, 0.1), 1e-13);
   // A ball of 10 in a hollow of 20: 1/R^ = 0.05, as two equal spheres of 40.
@@ -123,6 +128,28 @@ TEST(MaugisTriangles, UnequalSpheresPlaneAndHollow) {
   // Flat on both sides, and a hollow tighter than the ball: the largest radius.
   EXPECT_EQ(contact_plane(0, 0).radius, 1e3);
   EXPECT_EQ(contact_plane(0.05, -0.1).radius, 1e3);
+}
+
+// No force jumps where a curvature changes its sign or a triangle turns its edge to the other.
+TEST(MaugisTriangles, ForcesAreContinuous) {
+  const MaugisLaw law = {10, 0.01, 0.5};
+  const auto force = [&](double curvature, double tilt) {
+    Corners low = equilateral(3, -0.05, true, 0);
+    for (Vec3& x : low) x = Eigen::AngleAxisd(tilt, Vec3::UnitX()) * x;
+    return compute_triangle_forces(law, make_curved_triangle(low, curvature),
+                                   make_curved_triangle(equilateral(3, 0, false, 0.4), 0.08))
+        .on_b[0];
+  };
+  constexpr int kSteps = 2000;
+  double most = 0;
+  for (int k = 0; k < kSteps; ++k) {
+    const auto curvature = [](int n) { return -0.06 + 0.12 * n / kSteps; };
+    const auto tilt = [](int n) { return 1.5 * n / kSteps; };
+    EXPECT_LT((force(curvature(k + 1), 0.1) - force(curvature(k), 0.1)).norm(), 0.01) << k;
+    EXPECT_LT((force(0.05, tilt(k + 1)) - force(0.05, tilt(k))).norm(), 0.05) << k;
+    most = std::max(most, force(0.05, tilt(k)).norm());
+  }
+  EXPECT_GT(most, 1);  // hundreds of such steps
 }
 
 TEST(MaugisTriangles, NothingWithoutSharedAreaOrOutOfReach) {
