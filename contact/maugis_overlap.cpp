@@ -25,11 +25,11 @@ MaugisPoint ring_at_overlap(const MaugisPair& pair, double overlap) {
   return {0.0, c, overlap, -kPi * c * c * pair.cohesive_stress};
 }
 
-/// Reduced scales of a pair.
-struct Scale {
+/// Reduced units of a pair.
+struct ReducedUnits {
   double lambda, unit;
 };
-Scale scale_of(const MaugisPair& pair) {
+ReducedUnits units_of(const MaugisPair& pair) {
   return {maugis_lambda(pair), maugis_radius_unit(pair.pair)};
 }
 
@@ -65,19 +65,20 @@ std::optional<MaugisState> find_contact(double lambda, double approach, double g
 
 /// Overlap below which there is no force in any case, um: the range, the rise of the rim and the
 /// stretch of JKR together.
-double farthest_overlap(const MaugisPair& pair, const Scale& scale) {
+double farthest_overlap(const MaugisPair& pair, const ReducedUnits& units) {
   const double s = rim_rise(pair), R = pair.pair.radius;
-  return -range_of(pair) - 0.5 * R * s * s - scale.unit * scale.unit / R;
+  return -range_of(pair) - 0.5 * R * s * s - units.unit * units.unit / R;
 }
 
-MaugisPoint point_at(const MaugisPair& pair, const Scale& scale, double overlap, double guess) {
+MaugisPoint point_at(const MaugisPair& pair, const ReducedUnits& units, double overlap,
+                     double guess) {
   const SpherePair& p = pair.pair;
-  const double unit = scale.unit;
-  const auto state = find_contact(scale.lambda, overlap * p.radius / (unit * unit), guess);
+  const double unit = units.unit;
+  const auto state = find_contact(units.lambda, overlap * p.radius / (unit * unit), guess);
   if (state)
     return {state->a * unit, state->c * unit, overlap, state->load * kPi * p.adhesion * p.radius};
   const double s = rim_rise(pair);
-  if (overlap < -range_of(pair) - 0.5 * p.radius * s * s || maugis_turns(scale.lambda))
+  if (overlap < -range_of(pair) - 0.5 * p.radius * s * s || maugis_turns(units.lambda))
     return {0.0, 0.0, overlap, 0.0};
   return ring_at_overlap(pair, overlap);
 }
@@ -97,17 +98,17 @@ MaugisGrowth maugis_growth(const MaugisPair& pair, double overlap, double more) 
   if (pair.pair.adhesion == 0.0)
     return {hertz_point(pair.pair, overlap), hertz_point(pair.pair, overlap + more)};
   ACINUS_ASSERT(pair.cohesive_stress > 0.0);
-  const Scale scale = scale_of(pair);
-  if (overlap < farthest_overlap(pair, scale)) return {{0, 0, overlap, 0}, {0, 0, overlap, 0}};
+  const ReducedUnits units = units_of(pair);
+  if (overlap < farthest_overlap(pair, units)) return {{0, 0, overlap, 0}, {0, 0, overlap, 0}};
   const auto guess_at = [&](double x) {
-    return first_guess(x * pair.pair.radius / (scale.unit * scale.unit));
+    return first_guess(x * pair.pair.radius / (units.unit * units.unit));
   };
-  const MaugisPoint now = point_at(pair, scale, overlap, guess_at(overlap));
+  const MaugisPoint now = point_at(pair, units, overlap, guess_at(overlap));
   if (more == 0.0) return {now, now};
   const double then = overlap + more;
   // The root moves little; below it Newton's method steps above it first.
-  const double guess = now.contact_radius > 0 ? now.contact_radius / scale.unit : guess_at(then);
-  return {now, point_at(pair, scale, then, guess)};
+  const double guess = now.contact_radius > 0 ? now.contact_radius / units.unit : guess_at(then);
+  return {now, point_at(pair, units, then, guess)};
 }
 
 double least_overlap(const MaugisPair& pair) {

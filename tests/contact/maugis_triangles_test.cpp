@@ -149,7 +149,7 @@ TEST(MaugisTriangles, ForcesAreContinuous) {
     EXPECT_LT((force(0.05, tilt(k + 1)) - force(0.05, tilt(k))).norm(), 0.05) << k;
     most = std::max(most, force(0.05, tilt(k)).norm());
   }
-  EXPECT_GT(most, 1);  // hundreds of such steps
+  EXPECT_GT(most, 0.5);  // tens of such steps at least
 }
 
 TEST(MaugisTriangles, NothingWithoutSharedAreaOrOutOfReach) {

@@ -45,7 +45,7 @@ PairAtRest settle(World& world, double time) {
 
 TEST(TriangleContactSteps, APairAdheresAndSettlesInOrdinarySteps) {
   World world = make_pair(Mat3::Identity(), Vec3::Zero());
-  const PairAtRest soon = settle(world, 200), late = settle(world, 400);
+  const PairAtRest soon = settle(world, 1000), late = settle(world, 1400);
   std::printf(
       "pair: area %.1f then %.1f um^2, distance %.3f then %.3f um, pressure %.2f Pa; %lld "
       "steps, %lld rejected; momentum %.1e, torque %.1e\n",
@@ -53,11 +53,12 @@ TEST(TriangleContactSteps, APairAdheresAndSettlesInOrdinarySteps) {
       static_cast<long long>(world.state.clock.accepted),
       static_cast<long long>(world.state.clock.rejected), world.state.balance.momentum,
       world.state.balance.torque);
-  EXPECT_EQ(world.state.clock.accepted, 200);  // of 2 s
+  EXPECT_EQ(world.state.clock.accepted, 700);  // of 2 s
   EXPECT_EQ(world.state.clock.rejected, 0);
   EXPECT_GT(late.area, 20);
   EXPECT_LT(late.distance, kApart);
-  EXPECT_NEAR(late.distance, soon.distance, 0.1);
+  EXPECT_NEAR(late.distance, soon.distance, 0.05);  // a facet more or less
+  EXPECT_NEAR(late.area, soon.area, 0.1 * late.area);
   EXPECT_GT(late.cell[0].cytosol_pressure, 0);
   EXPECT_LT(world.state.balance.momentum, 1e-9);  // as of the other law
   EXPECT_LT(world.state.balance.torque, 1e-9);
