@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -45,7 +46,16 @@ struct GaussPoint {
 constexpr std::array<GaussPoint, 3> kSixPoints = {{{0.2386191860831969, 0.4679139345726910},
                                                    {0.6612093864662645, 0.3607615730481386},
                                                    {0.9324695142031521, 0.1713244923791704}}};
+constexpr std::array<GaussPoint, 2> kFourPoints = {
+    {{0.3399810435848563, 0.6521451548625461}, {0.8611363115940526, 0.3478548451374538}}};
 constexpr std::array<GaussPoint, 1> kTwoPoints = {{{0.5773502691896257, 1.0}}};
+
+/// Rule for an interval of a smooth function, relative to the scale on which it varies: errors of
+/// 1e-7 at most.
+std::span<const GaussPoint> rule_for(double extent) {
+  if (extent < 0.6) return kFourPoints;
+  return kSixPoints;
+}
 
 /// Calls visit(x, weight) for the quadrature points of an interval.
 template <class Visit>
@@ -59,6 +69,35 @@ void for_each_gauss_point(std::span<const GaussPoint> rule, double low, double h
 struct Levels {
   double push, push2;  ///< G at the reversal, of the first and the second state
   double pull, pull2;  ///< G at c less G at the reversal
+};
+
+/// Integrals along a piece of an edge within a.
+struct InnerIntegral {
+  const MaugisStress &first, &second;
+  double h2;                            ///< um^2, squared distance of the edge
+  double base = 0, base2 = 0, end = 0;  ///< nN/rad, levels of G
+  double force = 0, moment = 0, growth = 0;
+
+  /// @param place  x -> (t, dt/dx)
+  template <class Place>
+  void add(double from, double to, double extent, Place place) {
+    const double a2 = square(first.a);
+    const auto value_at = [&](double r2) {
+      return enclosed_within(first, r2, std::sqrt(std::max(0.0, a2 - r2))) - base;
+    };
+    for_each_gauss_point(rule_for(extent), from, to, [&](double x, double weight) {
+      const auto [t, slope] = place(x);
+      const double r2 = h2 + square(t), dt = weight * slope, value = value_at(r2);
+      force += dt / r2 * value;
+      moment += dt * (value - end);
+    });
+    for_each_gauss_point(kTwoPoints, from, to, [&](double x, double weight) {
+      const auto [t, slope] = place(x);
+      const double r2 = h2 + square(t);
+      const double more = enclosed_stress(second, std::sqrt(r2)) - base2 - value_at(r2);
+      growth += weight * slope / r2 * more;
+    });
+  }
 };
 
 /// Integrals along one edge of a polygon.
@@ -146,32 +185,26 @@ class EdgeIntegral {
     out_.pull.growth += second - (level * turn - half * h_ * length);
   }
 
-  /// Within a: the root in w vanishes where r = a, so that t = reach(a) sin(angle) is integrated.
+  /// Within a.
   void add_within(double t1, double t2, bool pushes) {
     const double whole = reach(s_.a);
-    const double from = std::asin(std::clamp(t1 / whole, -1.0, 1.0)),
-                 to = std::asin(std::clamp(t2 / whole, -1.0, 1.0));
+    InnerIntegral sum{s_, second_, square(h_)};
+    sum.base = pushes ? 0.0 : level_.push;
+    sum.base2 = pushes ? 0.0 : level_.push2;
+    sum.end = pushes ? level_.push : level_.pull;
+    // Near the rim the root in w is not smooth in t, but in the angle whose sine is t / reach.
+    if (std::max(std::abs(t1), std::abs(t2)) < 0.6 * whole)
+      sum.add(t1, t2, (t2 - t1) / whole, [](double t) { return std::pair(t, 1.0); });
+    else {
+      const double from = std::asin(std::clamp(t1 / whole, -1.0, 1.0)),
+                   to = std::asin(std::clamp(t2 / whole, -1.0, 1.0));
+      sum.add(from, to, to - from,
+              [&](double x) { return std::pair(whole * std::sin(x), whole * std::cos(x)); });
+    }
     StressPart& part = pushes ? out_.push : out_.pull;
-    const double base = pushes ? 0.0 : level_.push, base2 = pushes ? 0.0 : level_.push2;
-    const double end = pushes ? level_.push : level_.pull;
-    double force = 0.0, moment = 0.0, second = 0.0;
-    for_each_gauss_point(kSixPoints, from, to, [&](double x, double weight) {
-      const double w = whole * std::cos(x), t = whole * std::sin(x), dt = weight * w;
-      const double r2 = square(h_) + square(t);
-      const double value = enclosed_within(s_, r2, w) - base;
-      force += dt / r2 * value;
-      moment += dt * (value - end);
-    });
-    for_each_gauss_point(kTwoPoints, from, to, [&](double x, double weight) {
-      const double w = whole * std::cos(x), t = whole * std::sin(x);
-      const double r2 = square(h_) + square(t);
-      second +=
-          weight * w / r2 *
-          (enclosed_stress(second_, std::sqrt(r2)) - base2 - enclosed_within(s_, r2, w) + base);
-    });
-    part.force += h_ * force;
-    part.moment += moment * normal_;
-    part.growth += h_ * second;
+    part.force += h_ * sum.force;
+    part.moment += sum.moment * normal_;
+    part.growth += h_ * sum.growth;
     const double across = 0.5 * h_ * (t2 - t1);
     if (pushes) {
       part.area += across;

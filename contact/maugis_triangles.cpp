@@ -191,6 +191,10 @@ TriangleContact compute_triangle_contact(const MaugisLaw& law, const CurvedTrian
   const ContactPlane plane = compute_contact_plane(cap_a, cap_b, law.max_radius);
   const double share = facing_share(cap_a, cap_b, plane);
   if (share == 0.0) return {};
+  // Most near triangles lie beside each other.
+  const Vec3 apart = b.circumcenter - a.circumcenter;
+  const double along = apart.dot(plane.normal), wide = a.circumradius + b.circumradius;
+  if (apart.squaredNorm() - along * along >= wide * wide) return {};
   const PlaneFrame frame = make_frame(plane, a);
   const Triangle2 flat_a = frame.project(a), flat_b = frame.project(b);
   // Seen from a, the corners of b run clockwise.
