@@ -16,6 +16,7 @@
   X(kAspiration, aspiration)              \
   X(kNarrowGap, narrow_gap)               \
   X(kPullOff, pull_off)                   \
+  X(kTear, tear)                          \
   /* further ones above this line */
 
 namespace acinus::runs {

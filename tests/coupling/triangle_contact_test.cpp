@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
+#include <vector>
 
+#include "contact/maugis_overlap.hpp"
 #include "coupling/measure/adhesion.hpp"
 #include "coupling/measure/measure.hpp"
+#include "coupling/step/step.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "tests/coupling/worlds.hpp"
 
@@ -68,6 +72,63 @@ TEST(TriangleContactSteps, APairAdheresAndSettlesInOrdinarySteps) {
     EXPECT_NEAR(m.contact_area, late.area, 0.05 * late.area);
     EXPECT_NEAR(m.contact_force, late.cell[0].contact_force, 1e-12);
   }
+}
+
+// Both models against each other, from several directions: force and moment.
+TEST(TriangleContactSteps, ForcesAcrossTheInterfaceBalance) {
+  for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(0.35682, 0, 0.93417), Vec3(1, 1, 1)}) {
+    World world = make_test_world({{Vec3::Zero()}, {23.5 * direction.normalized(), false}});
+    world.params.dcm_contact.law = dcm::ContactLaw::kMaugisDugdale;
+    SizedWorkspace work(world);
+    assemble(world, 1.0, work);
+    std::vector<double> with = work.system.force;
+    assemble(world, 1.0, work, {.interface = false});
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    double sizes = 0, moments = 0;
+    const std::size_t split = cbm_first_row(world.state) * kPointStride;
+    for (std::size_t row = 0; row < work.system.n_row; ++row)
+      for (int l = 0; l < kLanes; ++l) {
+        const Address a = make_address(row, l);
+        const Vec3 f = load_point(with.data(), a) - load_point(work.system.force.data(), a);
+        const Vec3 x = a < split ? load_point(world.state.dcm.position.data(), a)
+                                 : cbm::center_of(world.state.cbm, 0);
+        force += f;
+        moment += x.cross(f);
+        sizes += f.norm();
+        moments += x.cross(f).norm();
+      }
+    EXPECT_GT(sizes, 1e-2);
+    EXPECT_LT(force.norm(), 1e-12 * sizes);
+    EXPECT_LT(moment.norm(), 1e-12 * moments);
+  }
+}
+
+// A round cell and a sphere: the curve with the modulus of the sphere in series.
+TEST(TriangleContactSteps, ASphereIsMetAsABall) {
+  const double overlap = 0.4;
+  World world = make_test_world({{Vec3::Zero()}, {Vec3(24 - overlap, 0, 0), false}}, 60, 642);
+  world.params.dcm_contact.law = dcm::ContactLaw::kMaugisDugdale;
+  for (int i = 0; i < 642; ++i) {
+    double* x = world.state.dcm.position.data();
+    const Address a = dcm::node_address(world.state.dcm, 0, i);
+    store_point(x, a, 12 * load_point(x, a).normalized());
+  }
+  SizedWorkspace work(world);
+  assemble(world, 1.0, work);
+  double push = 0, area = 0;
+  for (const contact::Contact& k : work.contacts.interface()) {
+    push += k.force;
+    area += k.touching;
+  }
+  const double nu = world.params.cbm[0].poisson;
+  const double sphere = world.state.cbm.young[0] / (1 - nu * nu);
+  const double modulus = 1 / (1 / world.params.dcm_contact.modulus + 1 / sphere);
+  const double adhesion = std::sqrt(world.params.dcm[0].adhesion * world.params.cbm[0].adhesion);
+  const contact::MaugisPoint exact =
+      contact::maugis_at_overlap({{6, modulus, adhesion}, adhesion / 0.02}, overlap);
+  std::printf("a cell against a sphere: %.4f of the curve, area %.4f\n", push / exact.force,
+              area / (kPi * exact.cohesive_radius * exact.cohesive_radius));
+  EXPECT_NEAR(push, exact.force, 0.01 * std::abs(exact.force));
 }
 
 // The first steps: later the jumps of the force part what round-off has parted.

@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "contact/maugis_overlap.hpp"
 #include "contact/maugis_triangles.hpp"
+#include "contact/static_mesh.hpp"
 #include "core/parallel/threads.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "tests/dcm/clump.hpp"
@@ -113,10 +115,91 @@ TEST(TriangleContacts, SpheresFollowTheCurve) {
   c.find();
   double push = 0;
   for (const contact::Contact& k : c.surface()) push -= k.force * k.normal.z();
-  const double exact =
-      contact::maugis_at_overlap({{5, 10, 0.01}, 0.5}, 0.5).force;
+  const double exact = contact::maugis_at_overlap({{5, 10, 0.01}, 0.5}, 0.5).force;
   std::printf("push of two spheres over the curve's: %.4f\n", push / exact);
   EXPECT_NEAR(push / exact, 1, 3 * 0.004);
+}
+
+/// Round cell of 642 nodes and radius 10 um around a place, alone, for the law of triangles.
+Clump make_round_cell(const Vec3& center) {
+  Clump c;
+  auto random = reference::stream(82);
+  c.add_cells({new_cell(0, center, 10, reference::random_rotation(random), 642)});
+  for (int i = 0; i < 642; ++i) {
+    const Address a = node_address(c.state, 0, i);
+    const Vec3 out = load_point(c.state.position.data(), a) - center;
+    store_point(c.state.position.data(), a, center + 10 * out.normalized());
+  }
+  c.options.law = ContactLaw::kMaugisDugdale;
+  return c;
+}
+
+/// Sum of the forces on the cell along a direction, nN.
+double force_along(std::span<const contact::Contact> contacts, const Vec3& direction) {
+  double force = 0;
+  for (const contact::Contact& k : contacts) force += k.force * k.normal.dot(direction);
+  return force;
+}
+
+// Estimated curvatures, 2.4e-5 off for 642 nodes, make the overlap 0.5 nm wrong.
+TEST(TriangleContacts, WallsFollowTheCurve) {
+  const double overlap = 0.3, W = 0.01;
+  Clump on_plane = make_round_cell(Vec3(0, 0, 10 - overlap));
+  on_plane.boundary.planes.push_back({.name = "floor", .material = {.adhesion = W}});
+  on_plane.find();
+  const double plane = contact::maugis_at_overlap({{10, 10, W}, W / 0.02}, overlap).force;
+  const double push = force_along(on_plane.obstacle(), Vec3::UnitZ());
+  std::printf("on a plane: %.6f of the curve\n", push / plane);
+  EXPECT_NEAR(push, plane, 3e-3 * plane);
+  EXPECT_GT(on_plane.work.share[0].size(), 0);
+
+  // A wall of a tenth of the modulus of the contact: in series.
+  on_plane.boundary.planes[0].material = {.adhesion = 0, .young = 1};
+  on_plane.find();
+  const double soft = contact::maugis_at_overlap({{10, 1 / 1.1, 0}, 0}, overlap).force;
+  EXPECT_NEAR(force_along(on_plane.obstacle(), Vec3::UnitZ()), soft, 3e-3 * soft);
+
+  // In a capsule of 30 um: R^ of 15, to the order of Hertz.
+  Clump in_capsule = make_round_cell(Vec3(0, 0, -20 - overlap));
+  in_capsule.boundary.capsules.push_back({.name = "capsule", .radius = 30});
+  in_capsule.find();
+  const double capsule = contact::maugis_at_overlap({{15, 10, 0}, 0}, overlap).force;
+  EXPECT_NEAR(force_along(in_capsule.obstacle(), Vec3::UnitZ()), capsule, 0.02 * capsule);
+}
+
+// A mesh of a ball beside the cell is met as another cell is.
+TEST(TriangleContacts, StaticMeshesFollowTheCurve) {
+  const double overlap = 0.3;
+  Clump c = make_round_cell(Vec3(0, 0, 20 - overlap));
+  const geometry::Topology& t = geometry::shared_icosphere(642);
+  geometry::Surface ball{{}, t.triangle};
+  for (const Vec3& x : t.rest) ball.node.push_back(10 * x.normalized());
+  c.boundary.meshes.push_back(contact::make_static_mesh("ball", ball, false));
+  c.find();
+  const double exact = contact::maugis_at_overlap({{5, 10, 0}, 0}, overlap).force;
+  EXPECT_NEAR(force_along(c.surface(), Vec3::UnitZ()), exact, 3e-3 * exact);
+  for (const contact::Contact& k : c.surface()) EXPECT_EQ(k.partner, contact::Partner::kMesh);
+}
+
+// On a straight vessel of 5 um the relative curvatures are 0.1 and 0.3 um^-1: the ellipse of Hertz,
+// with the correction F2 of Johnson's Contact Mechanics, section 4.2.
+TEST(TriangleContacts, VesselsFollowTheEllipseOfHertz) {
+  const double overlap = 0.1;
+  Clump c = make_round_cell(Vec3(0, 0, 15 - overlap));
+  geometry::Network network;
+  network.node = {Vec3(0, -60, 0), Vec3(0, 60, 0)};
+  network.segment = {{0, 1}};
+  network.radius = {{5, 5}};
+  contact::set_network(c.boundary.vessels, network);
+  c.boundary.vessels.material = {};
+  c.find();
+  const double mean_radius = 1 / std::sqrt(0.1 * 0.3);
+  const double f2 = 1 - std::pow(std::pow(3.0, 0.0684) - 1, 1.531);
+  const double exact = 4.0 / 3 * 10 * std::sqrt(mean_radius) * std::pow(overlap / f2, 1.5);
+  const double force = force_along(c.obstacle(), Vec3::UnitZ());
+  std::printf("on a vessel: %.3f of the ellipse of Hertz\n", force / exact);
+  EXPECT_NEAR(force, exact, 0.06 * exact);  // each triangle takes the mean curvature
+  for (const contact::Contact& k : c.obstacle()) EXPECT_EQ(k.partner, contact::Partner::kVessel);
 }
 
 TEST(TriangleContacts, TurnWithTheCells) {
