@@ -455,7 +455,8 @@ TEST(ShippedScenes, EveryModelCanBeChosenFromOutside) {
       const Scene read = read_scene(scene.file);
       const bool deforms = read.stretcher || read.pipette ||
                            read.experiment == Experiment::kPlates ||
-                           read.experiment == Experiment::kPullOff;
+                           read.experiment == Experiment::kPullOff ||
+                           read.experiment == Experiment::kTear;
       if (std::string(model) == "cbm" && deforms) {
         EXPECT_CONTAINS(file_failure(scene.file, set), "is for deformable cells");
         continue;

@@ -141,6 +141,20 @@ TEST(PullScene, SaysWhatIsWrong) {
   EXPECT_CONTAINS(pulls(std::string("{") + kForce + "}", "pull_off"), "looks at two cells");
 }
 
+TEST(PullScene, TearingTakesPullsInBothDirections) {
+  constexpr const char* kRight =
+      R"({"direction": [1, 0, 0], "by": "spring", "stiffness": "1e-3 N/m"})";
+  constexpr const char* kLeft =
+      R"({"direction": [-2, 0, 0], "by": "spring", "stiffness": "1e-3 N/m"})";
+  constexpr const char* kUp =
+      R"({"direction": [0, 0, 1], "by": "spring", "stiffness": "1e-3 N/m"})";
+  const std::string comma = ", ";
+  EXPECT_EQ(pulls(kRight + comma + kLeft, "tear"), "");
+  for (const std::string& wrong :
+       {std::string(), std::string(kRight), kRight + comma + kUp + comma + kLeft})
+    EXPECT_CONTAINS(pulls(wrong, "tear"), "needs pulls along one line") << wrong;
+}
+
 TEST(PullScene, SpringsAreForDeformableCells) {
   const std::string text = changed(
       with_block(R"("pulls": [{"by": "spring", "stiffness": "1e-3 N/m"}])"), "\"dcm\"", "\"cbm\"");

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 
 #include "coupling/apparatus/suction/suction.hpp"
@@ -151,6 +153,26 @@ TEST(PullOff, ForceIsTheLargestThatWasBorne) {
   EXPECT_EQ(*pull_off_force(m), 2);
   m["pull_force_nN"] = {0, 4, 2, 1};
   EXPECT_EQ(*pull_off_force(m), 4) << "a spring lets the force fall before the contact is lost";
+}
+
+TEST(Tear, FiguresAreThoseOfATornBlock) {
+  const ExperimentRow& row = experiment_row(Experiment::kTear);
+  Measures m;
+  m["tear_force_nN"] = {-1, 0, 2, 6, 3};
+  m["separation_um"] = {20, 20, 21, 22, 25};
+  m["tear_work_fJ"] = {0, 0, 1, 5, 18.5};
+  nlohmann::ordered_json whole, torn;
+  EXPECT_EQ(row.why_over(m), "");
+  row.add_figures(Scene{}, m, whole);
+  EXPECT_TRUE(whole["tear_peak_nN"].is_null()) << "it still holds";
+  m["tear_force_nN"].push_back(0.1);
+  m["separation_um"].push_back(26);
+  m["tear_work_fJ"].push_back(20.05);
+  EXPECT_NE(row.why_over(m), "");
+  row.add_figures(Scene{}, m, torn);
+  EXPECT_EQ(torn["tear_peak_nN"], 6);
+  EXPECT_EQ(torn["tear_peak_separation_um"], 22);
+  EXPECT_EQ(torn["tear_total_work_fJ"], 20.05);
 }
 
 }  // namespace
