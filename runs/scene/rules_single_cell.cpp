@@ -30,16 +30,6 @@ void check_course(const Schedule& course, const std::string& pointer, Report& re
   }
 }
 
-void check_one_cell(const Scene& scene, Report& report) {
-  const std::string name = "\"" + name_of_choice(scene.experiment) + "\"";
-  if (scene.cells.source != CellSource::kList || scene.cells.list.size() != 1)
-    report.add_relation({"/experiment", "/cells/list", "/cells"}, name,
-                        "looks at one cell: give /cells/list with one entry");
-  if (scene.model.value_or(scene.cells.model) == CellModel::kCbm)
-    report.add_relation({"/experiment", "/cells/model"}, name,
-                        "is for deformable cells: set /cells/model to \"dcm\"");
-}
-
 void check_single_cell(const Scene& scene, Report& report) { check_series_friction(scene, report); }
 
 }  // namespace acinus::runs

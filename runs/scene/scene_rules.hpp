@@ -24,9 +24,6 @@ void check_life(const Scene& scene, Report& report);
 /// Checks that the times of a course, the list at `pointer`, never fall.
 void check_course(const Schedule& course, const std::string& pointer, Report& report);
 
-/// Checks that an experiment on a single cell has one deformable cell.
-void check_one_cell(const Scene& scene, Report& report);
-
 /// Checks cortices that flow. @pre called by check_rules
 void check_single_cell(const Scene& scene, Report& report);
 
