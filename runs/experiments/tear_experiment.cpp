@@ -46,7 +46,7 @@ struct Half {
 
 void sample_tear(const std::vector<coupling::Pull>& pulls, const ObservedFrame& f, Measures& m) {
   const coupling::State& s = f.world.state;
-  const Vec3 line = pulls[0].direction;
+  const Vec3 line = pulls.empty() ? Vec3(Vec3::UnitX()) : pulls[0].direction;
   Half half[2];
   for (const coupling::Pull& p : pulls) {
     const std::optional<coupling::Cell> cell = coupling::find_cell(s, p.cell);
