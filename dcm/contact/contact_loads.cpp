@@ -80,7 +80,9 @@ struct Completion {
   /// Friction of a contact of a triangle, nN s/um^3.
   double triangle_friction(const Contact& k) const {
     if (k.partner == Partner::kSurface)
-      return in.options.friction_factor * in.options.cell_friction;
+      return in.options.friction_form == FrictionForm::kSurface
+                 ? in.options.friction_factor * in.options.cell_friction
+                 : 0;
     return contact::material_of(in.boundary, k.partner, k.b).mirror
                ? 0
                : params_of(k.a).vessel_friction;

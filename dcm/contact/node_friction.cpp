@@ -74,17 +74,27 @@ class NodePairs {
   std::vector<PairFriction> entry_;
 };
 
+/// Friction of a contact, nN s/um.
+double friction_of(const ContactInput& in, const ContactWorkspace& work,
+                   const contact::Contact& s) {
+  const ContactParams& c = in.options;
+  if (is_triangle_contact(c, s)) return c.friction_factor * c.cell_friction * s.touching;
+  const std::size_t a = s.a;
+  return 0.5 *
+         point_area(*work.body[a].topology, c.quadrature, s.point,
+                    in.lanes.radius[work.lane_of_body[a]]) *
+         cell_friction_at(c, work, s);
+}
+
 /// Adds the contacts of a run to the pairs of its bodies' nodes.
 void add_run(const ContactInput& in, const ContactWorkspace& work,
              std::span<const contact::Contact> run, NodePairs& table) {
   const ContactParams& c = in.options;
   for (const contact::Contact& s : run) {
     const std::size_t a = s.a, b = s.b;
-    const double half = 0.5 * point_area(*work.body[a].topology, c.quadrature, s.point,
-                                         in.lanes.radius[work.lane_of_body[a]]);
-    const double friction = half * cell_friction_at(c, work, s);
+    const double friction = friction_of(in, work, s);
     if (friction == 0) continue;
-    const contact::PointStencil at = contact::point_stencil(work.body[a], c.quadrature, s.point);
+    const contact::PointStencil at = stencil_of(c, work.body[a], s);
     const auto own = nodes_of(at);
     const auto& other = (*work.body[b].triangle)[s.triangle];
     const double each = friction / static_cast<double>(own.size() * other.size());
@@ -103,7 +113,7 @@ void add_node_friction(const ContactInput& in, const ContactWorkspace& work,
                        const contact::ContactList& contacts, std::vector<solve::PointLink>& links) {
   const ContactParams& c = in.options;
   if (c.friction_factor * c.cell_friction == 0) return;
-  const std::span<const Contact> surface = contacts.surface();
+  const std::span<const contact::Contact> surface = contacts.surface();
   const std::vector<ContactRun> runs = find_runs(surface);
   std::vector<std::size_t> group;  // where each pair of bodies starts
   for (std::size_t k = 0; k < runs.size(); ++k)

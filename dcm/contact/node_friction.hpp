@@ -22,7 +22,8 @@
 namespace acinus::dcm {
 
 /// Appends the friction between the cells' nodes, one link for every pair of nodes. A contact point
-/// that is a node stands for itself, one in the middle of an edge for the two nodes of the edge.
+/// that is a node stands for itself, one in the middle of an edge for the two nodes of the edge, a
+/// contact of a triangle for its three.
 /// @pre all shares are known
 void add_node_friction(const ContactInput& in, const ContactWorkspace& work,
                        const contact::ContactList& contacts, std::vector<solve::PointLink>& links);

@@ -8,9 +8,6 @@ void check_contact_law(const Scene& scene, Report& report) {
   if (scene.contact.quadrature != contact::Quadrature::kThreePoint)
     report.add_relation({"/contact/law", "/contact/quadrature"}, law,
                         "acts between triangles. Set /contact/quadrature to \"3-point\"");
-  if (scene.contact.friction_form != dcm::FrictionForm::kSurface)
-    report.add_relation({"/contact/law", "/friction/form"}, law,
-                        "rubs where triangles press. Set /friction/form to \"surface\"");
 }
 
 }  // namespace acinus::runs

@@ -13,6 +13,7 @@
 #include "contact/static_mesh.hpp"
 #include "core/parallel/threads.hpp"
 #include "dcm/contact/contact_params.hpp"
+#include "dcm/contact/node_friction.hpp"
 #include "tests/dcm/clump.hpp"
 #include "tests/reference/dense_system.hpp"
 
@@ -161,7 +162,7 @@ TEST(TriangleContacts, WallsFollowTheCurve) {
 
   // In a capsule of 30 um: R^ of 15, to the order of Hertz.
   Clump in_capsule = make_round_cell(Vec3(0, 0, -20 - overlap));
-  in_capsule.boundary.capsules.push_back({.name = "capsule", .radius = 30});
+  in_capsule.boundary.capsules.push_back({.name = "capsule", .radius = 30, .material = {}});
   in_capsule.find();
   const double capsule = contact::maugis_at_overlap({{15, 10, 0}, 0}, overlap).force;
   EXPECT_NEAR(force_along(in_capsule.obstacle(), Vec3::UnitZ()), capsule, 0.02 * capsule);
@@ -279,6 +280,21 @@ TEST(TriangleContacts, RubWithTheirAreasAndTakeThemFromTheMedium) {
   }
   EXPECT_GT(touching, 10);
   EXPECT_NEAR(shared, 2 * touching, 1e-12 * shared);
+}
+
+// From node to node: a third of the area for each node of either side, and none between places.
+TEST(TriangleContacts, RubFromNodeToNode) {
+  Clump c = make_triangle_clump(83);
+  c.options.friction_form = FrictionForm::kNodes;
+  c.find();
+  std::vector<solve::PointLink> links;
+  add_node_friction(c.input(), c.work, c.contacts, links);
+  double touching = 0, friction = 0;
+  for (const contact::Contact& k : c.surface()) touching += k.touching;
+  for (const solve::PointLink& l : links) friction += static_cast<double>(l.friction);
+  for (const solve::Link& l : c.links.link) EXPECT_EQ(l.friction, 0);
+  EXPECT_GT(touching, 10);
+  EXPECT_NEAR(friction, 50 * touching, 1e-6 * friction);
 }
 
 TEST(TriangleContacts, SameBitsForAnyNumberOfThreads) {

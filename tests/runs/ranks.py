@@ -30,7 +30,7 @@ CASES = {
     "hybrid": [os.path.join(SCENES, "lobule_hybrid.json"), "--set", "start_up.growth_time=2 h", "--until", "10 min"],
     "life": [os.path.join(GOLDEN, "hybrid_life.json")],
     "zoom": [os.path.join(GOLDEN, "moving_zoom.json")],
-    "maugis": [os.path.join(SCENES, "adhering_pair.json"), "--set", "contact.law=maugis-dugdale", "--until", "10 s"],
+    "maugis_hybrid": [os.path.join(GOLDEN, "maugis_hybrid.json"), "--until", "15 min"],
     "nucleus": [os.path.join(SCENES, "narrow_gap_nucleus.json"), "--until", "5 min"],
     "patch": [os.path.join(SCENES, "patch_box.json"), "--until", "10 min"],
     "newton": [os.path.join(SCENES, "clump13.json"), "--until", "2 min", "--set", "time.integrator=newton"],
