@@ -91,7 +91,7 @@ double fade(double x, double low, double high) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-/// Share with which two caps that look at each other across their contact plane interact.
+/// Share with which two caps interact: 1 if their normals face each other across the contact plane.
 double facing_share(const SphericalCap& a, const SphericalCap& b, const ContactPlane& plane) {
   return fade(std::min(a.normal.dot(plane.normal), -b.normal.dot(plane.normal)), kEdgeOn, kFacing);
 }
@@ -189,6 +189,7 @@ TriangleContact compute_triangle_contact(const MaugisLaw& law, const CurvedTrian
                                          const CurvedTriangle& b) {
   const SphericalCap cap_a = cap_of(a), cap_b = cap_of(b);
   const ContactPlane plane = compute_contact_plane(cap_a, cap_b, law.max_radius);
+  if (plane.overlap < -law.farthest) return {};
   const double share = facing_share(cap_a, cap_b, plane);
   if (share == 0.0) return {};
   // Most near triangles lie beside each other.
@@ -207,6 +208,7 @@ TriangleContact compute_object_contact(const MaugisLaw& law, const CurvedTriangl
                                        const SphericalCap& b) {
   const SphericalCap cap_a = cap_of(a), cap_b = widen(b, a.circumradius);
   const ContactPlane plane = compute_contact_plane(cap_a, cap_b, law.max_radius);
+  if (plane.overlap < -law.farthest) return {};
   const double share = facing_share(cap_a, cap_b, plane);
   if (share == 0.0) return {};
   const Triangle2 flat = make_frame(plane, a).project(a);

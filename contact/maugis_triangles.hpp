@@ -7,6 +7,7 @@
 /// (dcm/contact/triangle_contact.hpp), the cohesive potential otherwise (cohesive.hpp).
 
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct MaugisLaw {
   /// Largest reduced radius, um. Flat or conforming surfaces would have an infinite one, and a
   /// stress of zero.
   double max_radius = 1e3;
+  /// Gap of two spheres beyond which nothing is computed, um. At least that at which forces end
+  /// (least_overlap), or infinite.
+  double farthest = std::numeric_limits<double>::infinity();
 };
 
 /// Contact plane of two caps: the radical plane of their spheres, or the plane of a flat one.

@@ -163,7 +163,7 @@ void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
   const dcm::ContactParams& c = in.dcm.options;
   const std::span<const double> radius = in.dcm.lanes.radius, sphere_radius = in.cbm.cells.radius;
   const bool triangles = c.law == dcm::ContactLaw::kMaugisDugdale;
-  double range = triangles ? dcm_work.lists.options.range : 0;
+  double range = triangles ? dcm::triangle_reach(in.dcm) : 0;
   for (std::size_t k = 0; k < dcm_work.body.size(); ++k)
     range = std::max(
         range, dcm::contact_range(c, *dcm_work.body[k].topology, radius[dcm_work.lane_of_body[k]]));
@@ -200,7 +200,7 @@ void find_triangle_interface(const InterfaceInput& in, dcm::ContactWorkspace& dc
                              const cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work,
                              contact::ContactList& contacts) {
   if (dcm_work.body.empty() || in.cbm.state.n_cell() == 0) return;
-  const double reach = dcm_work.lists.options.range;
+  const double reach = dcm::triangle_reach(in.dcm);
   dcm::refresh_curved_triangles(dcm_work);
   for_each_index(work.near.size(), true, [&](std::size_t p) {
     find_triangle_pair(in, dcm_work, cbm_work, work.near[p], reach, work.found[p]);

@@ -123,7 +123,7 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
   std::vector<Contact>& all = contacts.all;
   const bool triangles = in.options.law == ContactLaw::kMaugisDugdale;
   if (triangles)
-    find_triangle_contacts(in, work, all);
+    find_triangle_contacts(in, work, options.range, all);
   else
     find_point_contacts(in, options, work, all);
   take_wall_contacts(in, work, all);

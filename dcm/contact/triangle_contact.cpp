@@ -40,15 +40,18 @@ PartnerSurface surface_of(const ContactParams& c, const contact::Material& m) {
   return {c.adhesion_factor * m.adhesion, m.young / (1 - m.poisson * m.poisson)};
 }
 
-contact::MaugisLaw law_between(const ContactInput& in, const ContactWorkspace& work, int a, int b) {
+contact::MaugisLaw law_between(const ContactInput& in, const ContactWorkspace& work, int a, int b,
+                               double reach) {
   const std::size_t n = work.body.size(), k = b;
   if (k >= n)  // the mesh about the vessels comes last
     return maugis_law(in.options, surface_of(in.options, k - n < in.boundary.meshes.size()
                                                              ? in.boundary.meshes[k - n].material
                                                              : in.boundary.vessels.material));
   const double adhesion = std::sqrt(adhesion_of(in, work, a) * adhesion_of(in, work, b));
-  return maugis_law(
+  contact::MaugisLaw law = maugis_law(
       in.options, {in.options.adhesion_factor * adhesion, std::numeric_limits<double>::infinity()});
+  law.farthest = reach - in.options.max_depth;  // triangle_reach
+  return law;
 }
 
 /// Search for all contacts of two bodies.
@@ -182,7 +185,7 @@ void refresh_curved_triangles(ContactWorkspace& work) {
   });
 }
 
-void find_triangle_contacts(const ContactInput& in, ContactWorkspace& work,
+void find_triangle_contacts(const ContactInput& in, ContactWorkspace& work, double reach,
                             std::vector<Contact>& out) {
   TriangleContactWorkspace& scratch = work.triangles;
   const std::size_t n = work.body.size();
@@ -205,9 +208,8 @@ void find_triangle_contacts(const ContactInput& in, ContactWorkspace& work,
       contact::find_contacts(list, work.body, work.fixed, work.lists.options,
                              relative_motion(work.lists, k), scratch.found[k]);
     else
-      BodyPair{work, law_between(in, work, list.body_a, list.body_b), list,
-               work.lists.options.range}
-          .find(scratch.found[k]);
+      BodyPair{work, law_between(in, work, list.body_a, list.body_b, reach), list, reach}.find(
+          scratch.found[k]);
   });
   out.clear();
   for (const auto& found : scratch.found) out.insert(out.end(), found.begin(), found.end());

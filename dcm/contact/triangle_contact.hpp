@@ -38,8 +38,9 @@ void refresh_curved_triangles(ContactWorkspace& work);
 
 /// Search for all contacts between the surfaces of cells and with static meshes, written in order
 /// of side a with force, slope and area.
+/// @param reach  um, triangle_reach at present: lists may be older
 /// @pre refresh_lists
-void find_triangle_contacts(const ContactInput& in, ContactWorkspace& work,
+void find_triangle_contacts(const ContactInput& in, ContactWorkspace& work, double reach,
                             std::vector<contact::Contact>& out);
 
 /// Search for the contacts of the triangles of one body with walls and vessels; appends them.
