@@ -453,10 +453,9 @@ TEST(ShippedScenes, EveryModelCanBeChosenFromOutside) {
     for (const char* model : {"dcm", "cbm"}) {
       const std::vector<std::string> set{std::string("model=") + model};
       const Scene read = read_scene(scene.file);
-      const bool deforms = read.stretcher || read.pipette ||
-                           read.experiment == Experiment::kPlates ||
-                           read.experiment == Experiment::kPullOff ||
-                           read.experiment == Experiment::kTear;
+      const bool deforms =
+          read.stretcher || read.pipette || read.experiment == Experiment::kPlates ||
+          read.experiment == Experiment::kPullOff || read.experiment == Experiment::kTear;
       if (std::string(model) == "cbm" && deforms) {
         EXPECT_CONTAINS(file_failure(scene.file, set), "is for deformable cells");
         continue;
