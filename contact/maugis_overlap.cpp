@@ -18,6 +18,12 @@ double rim_rise(const MaugisPair& pair) {
 
 double range_of(const MaugisPair& pair) { return pair.pair.adhesion / pair.cohesive_stress; }
 
+/// Overlap below which no ring exists, um.
+double ring_end(const MaugisPair& pair) {
+  const double s = rim_rise(pair);
+  return -range_of(pair) - 0.5 * pair.pair.radius * s * s;
+}
+
 /// State without contact; c is the larger root, the other one is unstable.
 MaugisPoint ring_at_overlap(const MaugisPair& pair, double overlap) {
   const double R = pair.pair.radius, s = rim_rise(pair);
@@ -66,8 +72,7 @@ std::optional<MaugisState> find_contact(double lambda, double approach, double g
 /// Overlap below which there is no force in any case, um: the range, the rise of the rim and the
 /// stretch of JKR together.
 double farthest_overlap(const MaugisPair& pair, const ReducedUnits& units) {
-  const double s = rim_rise(pair), R = pair.pair.radius;
-  return -range_of(pair) - 0.5 * R * s * s - units.unit * units.unit / R;
+  return ring_end(pair) - units.unit * units.unit / pair.pair.radius;
 }
 
 MaugisPoint point_at(const MaugisPair& pair, const ReducedUnits& units, double overlap,
@@ -77,9 +82,7 @@ MaugisPoint point_at(const MaugisPair& pair, const ReducedUnits& units, double o
   const auto state = find_contact(units.lambda, overlap * p.radius / (unit * unit), guess);
   if (state)
     return {state->a * unit, state->c * unit, overlap, state->load * kPi * p.adhesion * p.radius};
-  const double s = rim_rise(pair);
-  if (overlap < -range_of(pair) - 0.5 * p.radius * s * s || maugis_turns(units.lambda))
-    return {0.0, 0.0, overlap, 0.0};
+  if (overlap < ring_end(pair) || maugis_turns(units.lambda)) return {0.0, 0.0, overlap, 0.0};
   return ring_at_overlap(pair, overlap);
 }
 
@@ -112,12 +115,10 @@ MaugisGrowth maugis_growth(const MaugisPair& pair, double overlap, double more) 
 }
 
 double least_overlap(const MaugisPair& pair) {
-  const SpherePair& p = pair.pair;
-  if (p.adhesion == 0.0) return 0.0;
-  const double lambda = maugis_lambda(pair);
-  if (maugis_turns(lambda)) return maugis_at_radius(pair, maugis_turning_radius(pair)).overlap;
-  const double s = rim_rise(pair);
-  return std::min(maugis_at_radius(pair, 0.0).overlap, -range_of(pair) - 0.5 * p.radius * s * s);
+  if (pair.pair.adhesion == 0.0) return 0.0;
+  const double turning = maugis_turning_radius(pair);
+  const double end = maugis_at_radius(pair, turning).overlap;
+  return turning > 0.0 ? end : std::min(end, ring_end(pair));
 }
 
 }  // namespace acinus::contact

@@ -33,10 +33,8 @@ double find_reversal(const MaugisStress& s) {
 double enclosed_within(const MaugisStress& s, double r2, double w) {
   const double hertz = s.hertz / 3.0 * (square(s.a) * s.a - square(w) * w);
   if (s.cohesive == 0.0) return hertz;
-  const double c2 = square(s.c);
   return hertz - s.cohesive / kPi *
-                     (c2 * std::atan2(s.edge, s.a) - (c2 - r2) * std::atan2(s.edge, w) +
-                      s.edge * (s.a - w));
+                     (s.sector - (square(s.c) - r2) * std::atan2(s.edge, w) + s.edge * (s.a - w));
 }
 
 /// Node and weight of Gauss' rule on [-1, 1]; each stands for itself and its mirror image.
@@ -232,6 +230,7 @@ MaugisStress make_maugis_stress(const MaugisPair& pair, const MaugisPoint& state
   s.a = state.contact_radius;
   s.c = std::max(state.cohesive_radius, state.contact_radius);
   s.edge = std::sqrt((s.c - s.a) * (s.c + s.a));
+  s.sector = square(s.c) * std::atan2(s.edge, s.a);
   s.reversal = find_reversal(s);
   return s;
 }

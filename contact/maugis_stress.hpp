@@ -23,6 +23,7 @@ struct MaugisStress {
   double a = 0;         ///< um
   double c = 0;         ///< um
   double edge = 0;      ///< um, sqrt(c^2 - a^2)
+  double sector = 0;    ///< um^2, c^2 atan(edge/a), a constant of G
   double reversal = 0;  ///< um, radius at which the stress changes its sign; 0: attractive only
 };
 MaugisStress make_maugis_stress(const MaugisPair& pair, const MaugisPoint& state);
