@@ -239,8 +239,13 @@ std::optional<DeepContact> find_deep_contact(const World& world, const Workspace
   return *std::ranges::min_element(all, {}, &DeepContact::place);
 }
 
-Assessment reject(const State& s, std::string cause, std::size_t lane) {
-  return {false, std::move(cause), lineage_of(s, lane), 0, 0};
+/// Part of a displacement after which a contact or a face is looked at again.
+constexpr double kHalf = 0.5;
+/// Share of the largest displacement that a shortened step takes.
+constexpr double kWithin = 0.95;
+
+Assessment reject(const State& s, std::string cause, std::size_t lane, double usable) {
+  return {false, std::move(cause), lineage_of(s, lane), usable, 0, 0};
 }
 
 Assessment assess_moves(const World& world, double step, const Workspace& w) {
@@ -248,14 +253,14 @@ Assessment assess_moves(const World& world, double step, const Workspace& w) {
   const Moves m = reduce_moves(world, w);
   Assessment a;
   if (m.infinite != Moves::kNone)
-    a = reject(s, name_body(s, m.infinite) + ": its displacement is not finite", m.infinite);
+    a = reject(s, name_body(s, m.infinite) + ": its displacement is not finite", m.infinite, 0);
   else if (m.too_far != Moves::kNone)
     a = reject(s,
                fmt::format("{} would move {:.3g} um in {:.4g} s", name_body(s, m.too_far),
                            m.distance, step),
-               m.too_far);
+               m.too_far, kWithin / m.excess);
   else if (m.turned != Moves::kNone)
-    a = reject(s, name_body(s, m.turned) + ": a face would turn over", m.turned);
+    a = reject(s, name_body(s, m.turned) + ": a face would turn over", m.turned, kHalf);
   a.max_move = m.largest;
   return a;
 }
@@ -270,7 +275,7 @@ Assessment assess_contacts(const World& world, const Workspace& w) {
   Assessment result = reject(
       s,
       fmt::format("{} would be driven {:.2f} um into {}", name_body(s, deep->a), deep->depth, into),
-      deep->a);
+      deep->a, kHalf);
   if (deep->pair && deep->b != deep->a)
     for (const std::int64_t lineage : lineage_of(s, deep->b)) result.cells.push_back(lineage);
   return result;
@@ -282,7 +287,8 @@ double move_limit(double max_move, double mean_edge) {
   return max_move > 0 ? max_move * mean_edge : std::numeric_limits<double>::infinity();
 }
 
-Assessment assess_step(const World& world, double step, const Status& solved, Workspace& w) {
+Assessment assess_step(const World& world, double step, double part, const Status& solved,
+                       Workspace& w) {
   if (!solved.ok) {
     ++w.failed_solves;
     Assessment failed;
@@ -297,10 +303,12 @@ Assessment assess_step(const World& world, double step, const Status& solved, Wo
   a = assess_contacts(world, w);
   a.max_move = max_move;
   if (!a.accepted) return a;
-  a.error = estimate_error(world, step, w);
+  a.error = (2 - part) * estimate_error(world, step, w);
   const Numerics& n = world.params.numerics;
-  if (n.adaptive && a.error > kMostError * n.tolerance && step > n.min_step) {
+  const double most = kMostError * n.tolerance;
+  if (n.adaptive && a.error > most && step > n.min_step) {
     a.accepted = false;
+    a.usable = kHalf * most / a.error;
     a.cause = "the estimated error is too large";
   }
   return a;

@@ -16,6 +16,7 @@ struct Assessment {
   bool accepted = true;
   std::string cause;                ///< cause of rejection
   std::vector<std::int64_t> cells;  ///< lineages of the cells that caused it
+  double usable = 0;                ///< part of a rejected displacement to try; 0: none
   double error = 0;                 ///< um, estimated error
   double max_move = 0;              ///< um, largest displacement
 };
@@ -29,7 +30,11 @@ inline constexpr double kSphereEdge = 0.3;  ///< mean edge of a 162-node mesh, i
 inline constexpr double kMostError = 4;
 
 /// Accepts or rejects the displacement in work.move. Counts failed solves.
+/// @param step    s, length of the step
+/// @param part    its share of the step that was computed (shorten.hpp); 1: all of it. If the
+///                velocity changes steadily the error of a part is (2 - part) times its estimate.
 /// @param solved  outcome of the solver
-Assessment assess_step(const World& world, double step, const Status& solved, Workspace& work);
+Assessment assess_step(const World& world, double step, double part, const Status& solved,
+                       Workspace& work);
 
 }  // namespace acinus::coupling

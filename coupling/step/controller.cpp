@@ -12,6 +12,7 @@
 #include "coupling/step/balance_shares.hpp"
 #include "coupling/step/constrained_points.hpp"
 #include "coupling/step/move_points.hpp"
+#include "coupling/step/shorten.hpp"
 #include "coupling/step/step.hpp"
 #include "dcm/tensions.hpp"
 
@@ -92,17 +93,21 @@ StepResult take_step(World& world, Workspace& w, double limit) {
   w.failed_solves = 0;
   double wanted = s.clock.step > 0 ? std::min(s.clock.step, n.max_step) : n.max_step;
   for (;;) {
-    const double step = std::min(wanted, limit);
-    const Assessment a = attempt_step(world, step, result.rejections == 0, w, effort);
+    const double computed = std::min(wanted, limit);
+    Assessment a = attempt_step(world, computed, result.rejections == 0, w, effort);
+    Balance balance = s.balance;
+    if (a.accepted || a.usable > 0) record_balance(world, w, balance);
+    const double part = shorten_step(world, computed, w, a), step = part * computed;
     if (a.accepted) {
       const auto scope = w.timings.scope("commit");
-      record_balance(world, w, s.balance);
+      s.balance = balance;
       solve::gather_rows(w.system, w.move);
       gather_touching(w);
       commit(step, effort, world, w);
       s.clock.rejected += result.rejections;
-      // A step shortened by an event predicts little about the length of the next.
-      s.clock.step = step < wanted ? wanted : next_step(n, step, a.error);
+      s.clock.shortened += part < 1 ? 1 : 0;
+      // A step that ends at an event predicts little about the length of the next.
+      s.clock.step = computed < wanted ? wanted : next_step(n, step, a.error);
       result.accepted = true;
       result.step = step;
       result.error = a.error;
@@ -117,8 +122,8 @@ StepResult take_step(World& world, Workspace& w, double limit) {
     ++result.rejections;
     result.cause = a.cause;
     result.cells = a.cells;
-    if (step <= n.min_step) return result;
-    wanted = std::max(0.5 * step, n.min_step);
+    if (computed <= n.min_step) return result;
+    wanted = std::max(0.5 * computed, n.min_step);
   }
 }
 

@@ -52,7 +52,7 @@ Assessment attempt_step(const World& world, double step, bool first_try, Workspa
   const State& at = choose_linearisation_point(world, step, first_try, w);
   assemble(world, at, step, w, terms_of(world.params.numerics.integrator));
   const Status solved = solve(world, step, w, effort);
-  return assess_step(world, step, solved, w);
+  return assess_step(world, step, 1, solved, w);
 }
 
 std::string name_of(Integrator integrator) {

@@ -147,7 +147,8 @@ void extract_at_rest(const World& world, CellSet moving, CellSet constrained, Su
   s.balance = {};
   s.clock.step = kFirstSubworldStep;
   s.clock.last_step = 0;
-  s.clock.accepted = s.clock.rejected = s.clock.cg_iterations = s.clock.solves = 0;
+  s.clock.accepted = s.clock.rejected = s.clock.shortened = 0;
+  s.clock.cg_iterations = s.clock.solves = 0;
   s.clock.coarse = false;
 }
 

@@ -114,7 +114,8 @@ class Checks {
       need(std::abs(t) <= kLargestTime, "a time of the clock");
     for (const double t : {c.step, c.last_step})
       need(t >= 0 && t <= kLargestTime, "the length of a step");
-    need(c.accepted >= 0 && c.rejected >= 0 && c.cg_iterations >= 0 && c.solves >= 0,
+    need(c.accepted >= 0 && c.rejected >= 0 && c.shortened >= 0 && c.cg_iterations >= 0 &&
+             c.solves >= 0,
          "a count of steps");
   }
 

@@ -342,6 +342,7 @@ void put_state(const coupling::State& s, io::CheckpointData& d) {
   visit_numbers(s.clock, s.balance,
                 [&](const char* name, double value) { d.put_number(name, value); });
   visit_counts(s.clock, [&](const char* name, std::int64_t value) { d.put_count(name, value); });
+  d.put_count("clock/shortened", s.clock.shortened);
   d.put("solver/last_move", s.last_move);
   d.put("leaders/cell", as_integers(s.leader));
   d.put_count("leaders/interval", s.leader_interval);
@@ -357,9 +358,11 @@ void get_state(const io::CheckpointData& d, const StateTypes& types, coupling::S
   get_zoom(d, s);
   s.clock.phase = static_cast<coupling::Phase>(as_int(d, "clock/phase", d.count("clock/phase")));
   s.clock.coarse = d.count("clock/coarse") != 0;
-  if (d.contains("clock/events_due"))  // files of 0.1.0 have none
+  // Files of 0.1.0 have neither of the next two.
+  if (d.contains("clock/events_due"))
     s.clock.due = static_cast<coupling::EventsDue>(
         std::min(as_int(d, "clock/events_due", d.count("clock/events_due")), 255));
+  if (d.contains("clock/shortened")) s.clock.shortened = d.count("clock/shortened");
   visit_numbers(s.clock, s.balance,
                 [&](const char* name, double& value) { value = d.number(name); });
   visit_counts(s.clock, [&](const char* name, auto& value) { value = d.count(name); });

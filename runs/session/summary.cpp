@@ -64,6 +64,7 @@ void add_cost(const SummaryInput& in, OrderedJson& j) {
   j["instruction_set"] = std::string(best_instruction_set());
   j["steps"] = {{"accepted", clock.accepted},
                 {"rejected", clock.rejected},
+                {"shortened", clock.shortened},
                 {"solves", clock.solves},
                 {"cg", clock.cg_iterations}};
 }

@@ -1,0 +1,42 @@
+#include "coupling/step/shorten.hpp"
+
+#include "core/numbers/time_grid.hpp"
+#include "core/parallel/threads.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Largest number of assessments of one displacement: several cells may limit it.
+constexpr int kMostTries = 4;
+
+/// True if the random force is not constant over a step.
+bool has_noise(const World& world, double step) {
+  const Motility& m = world.params.motility;
+  const Clock& clock = world.state.clock;
+  if (!m.random || !controls_at(clock, world.params.start_up).motility) return false;
+  const double now = clock.time - clock.origin;
+  return crosses_grid(now, now + step, m.grid);
+}
+
+bool can_shorten(const World& world, double step, const Workspace& w) {
+  const Numerics& n = world.params.numerics;
+  return n.adaptive && n.integrator == Integrator::kLinearlyImplicit &&
+         !w.constraint.prescribed_velocity && !has_noise(world, step);
+}
+
+}  // namespace
+
+double shorten_step(const World& world, double step, Workspace& w, Assessment& a) {
+  if (a.accepted || a.usable == 0 || !can_shorten(world, step, w)) return 1;
+  double part = 1;
+  for (int k = 0; k < kMostTries && !a.accepted; ++k) {
+    const double factor = a.usable;
+    part *= factor;
+    if (part < kLeastPart) return 1;
+    for_each_number(w.move.size(), [&](std::size_t i) { w.move[i] *= factor; });
+    a = assess_step(world, step * part, part, {}, w);
+  }
+  return a.accepted ? part : 1;
+}
+
+}  // namespace acinus::coupling
