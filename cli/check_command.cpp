@@ -1,5 +1,6 @@
 /// Command `acinus check`.
 
+#include <filesystem>
 #include <memory>
 
 #include "cli/command.hpp"
@@ -8,6 +9,7 @@
 #include "core/parallel/stop.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/assemble/memory_need.hpp"
+#include "runs/assemble/shipped_laws.hpp"
 #include "runs/experiments/read_scene.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 
@@ -21,12 +23,28 @@ struct CheckArguments {
   bool resolved = false;  ///< print the scene with all defaults
 };
 
+/// Suggests a stiffness law for plain spheres beside deformable cells.
+void suggest_laws(const runs::Scene& scene, const coupling::State& state) {
+  if (dcm::count_cells(state.dcm) == 0 || state.cbm.n_cell() == 0) return;
+  for (const auto& [name, type] : scene.cell_types) {
+    if (type.cbm.stiffness_correction != "none") continue;
+    const std::string law = runs::find_shipped_law(scene, type);
+    fmt::print(
+        "{0}: plain spheres press several times as hard as deformable cells in the same tissue. "
+        "--set cell_types.{0}.cbm.stiffness_correction=auto {1}\n",
+        name,
+        law.empty() ? "calibrates them, some minutes once"
+                    : "takes the shipped law " + std::filesystem::path(law).stem().string());
+  }
+}
+
 int check_scene(const CheckArguments& arguments) {
   const WallTimeLimit limit(read_wall_time_limit(arguments.max_walltime));
   const ExitAtLimit nothing_to_save;
   const runs::Scene scene =
       runs::read_scene(runs::find_scene_file(arguments.scene_file), arguments.set);
   runs::Scene plain = scene;
+  runs::use_shipped_laws(plain);
   std::vector<std::string> later;
   for (auto& [name, type] : plain.cell_types) {
     if (type.cbm.stiffness_correction != "auto") continue;
@@ -51,6 +69,7 @@ int check_scene(const CheckArguments& arguments) {
       built.vessel_length, scene.time.end / 3600, scene.hash);
   for (const std::string& note : built.notes.info) fmt::print("{}\n", note);
   for (const std::string& note : later) fmt::print("{}\n", note);
+  suggest_laws(scene, built.world.state);
   return 0;
 }
 

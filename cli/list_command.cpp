@@ -1,8 +1,10 @@
 /// Commands `acinus list` and `acinus new`: scenes that ship with the program.
 
+#include <filesystem>
 #include <memory>
 
 #include "cli/command.hpp"
+#include "runs/assemble/shipped_laws.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/scene/choices.hpp"
 #include "runs/scene/shipped_scenes.hpp"
@@ -21,6 +23,10 @@ int list() {
     for (const runs::ShippedScene& study : studies)
       fmt::print("  {:20}  {}\n", study.name, study.description);
   }
+  fmt::print("stiffness laws of spheres (cell_types.NAME.cbm.stiffness_correction)\n");
+  for (const std::string& file : runs::list_laws(runs::law_folder()))
+    fmt::print("  {:20}  {}\n", std::filesystem::path(file).stem().string(),
+               runs::describe_law(file));
   fmt::print("experiments (scene key experiment)\n");
   const std::vector<std::string> names = runs::split_choices(runs::kChoices<runs::Experiment>);
   for (std::size_t k = 0; k < names.size(); ++k)
@@ -39,7 +45,7 @@ int copy(const std::string& name, const std::string& folder) {
 }  // namespace
 
 Command add_list(CLI::App& app) {
-  return {add_command(app, "list", "list the shipped scenes, studies and the experiments",
+  return {add_command(app, "list", "list the shipped scenes, studies and laws, and the experiments",
                       "acinus list"),
           list};
 }

@@ -8,7 +8,7 @@ install(TARGETS acinus RUNTIME)
 if(ACINUS_BENCH)
   install(TARGETS acinus-bench RUNTIME)
 endif()
-install(DIRECTORY runs/scenes runs/studies DESTINATION ${CMAKE_INSTALL_DATADIR}/acinus)
+install(DIRECTORY runs/scenes runs/studies runs/laws DESTINATION ${CMAKE_INSTALL_DATADIR}/acinus)
 install(FILES LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(installed core geometry solve io contact imaging dcm cbm coupling calibration)

@@ -6,6 +6,7 @@
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
 #include "runs/assemble/build_params.hpp"
+#include "runs/assemble/shipped_laws.hpp"
 #include "runs/scene/key_values.hpp"
 #include "runs/scene/registry_blocks.hpp"
 
@@ -43,16 +44,18 @@ void build_corrections(const Scene& scene, std::vector<cbm::Params>& params, Not
   std::size_t k = 0;
   for (const auto& [name, type] : scene.cell_types) {
     cbm::Params& p = params[k++];
-    const std::string& file = type.cbm.stiffness_correction;
+    std::string file = type.cbm.stiffness_correction;
     if (file == "none") continue;
     if (file == "paper") {
       p.correction = cbm::paper_law();
       notes.info.push_back(name + ": E = E + 4e6 Pa d^4, d the mean overlap of the contacts");
       continue;
     }
-    check(file != "auto",
-          fmt::format("/cell_types/{}/cbm/stiffness_correction: \"auto\" is for `acinus run`. "
-                      "Calibrate first and name the law file.",
+    if (file == "auto") file = find_shipped_law(scene, type);
+    check(!file.empty(),
+          fmt::format("/cell_types/{}/cbm/stiffness_correction: no shipped law fits these cells, "
+                      "and only `acinus run` calibrates by itself. Calibrate first and name the "
+                      "law file.",
                       name));
     const calibration::Law law = calibration::read_law(file);
     notes.info.push_back(fmt::format("{}: {} ({})", name, describe(law), file));

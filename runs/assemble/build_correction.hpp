@@ -21,8 +21,8 @@ LawParameters law_parameters(const Scene& scene, const CellType& type);
 /// constants. The modulus of the spheres becomes a0 of the law.
 /// @param params  [n_type], in the order of scene.cell_types
 /// @param notes   receives the name of each law, and a warning if it was calibrated for other cells
-/// @throws Error for an unusable law file, and for "auto", which resolve_corrections() replaces by
-/// a file first
+/// @throws Error for an unusable law file, and for "auto" without a shipped law, which
+/// resolve_corrections() replaces by a file first
 void build_corrections(const Scene& scene, std::vector<cbm::Params>& params, Notes& notes);
 
 }  // namespace acinus::runs

@@ -99,7 +99,10 @@ class Folders {
       return run(as_spheres(compression_, "none"), "compression_cbm",
                  {.quiet = true, .fresh = options_.fresh, .whole = true});
     }
-    calibration::write_law(law, path("law.json"));
+    // The clump's surfaces may be stiffer than those of the cells that the law is for.
+    calibration::Law of_clump = law;
+    of_clump.dcm = law_parameters(compression_, compression_.cell_types.begin()->second).dcm;
+    calibration::write_law(of_clump, path("law.json"));
     // Another law may stand in the file of an earlier attempt.
     return run(as_spheres(compression_, path("law.json")), "compression_corrected",
                {.quiet = true, .fresh = true});

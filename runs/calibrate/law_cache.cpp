@@ -6,17 +6,16 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
-#include <variant>
-#include <vector>
 
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
 #include "core/parallel/stop.hpp"
 #include "io/file_lock.hpp"
 #include "runs/assemble/build_correction.hpp"
+#include "runs/assemble/law_settings.hpp"
+#include "runs/assemble/shipped_laws.hpp"
 #include "runs/calibrate/calibrate_scene.hpp"
 #include "runs/scene/key_values.hpp"
 #include "runs/scene/registry_blocks.hpp"
@@ -54,12 +53,6 @@ std::optional<io::FileLock> lock_law(const std::string& file, bool quiet) {
   return {};
 }
 
-/// Values of the keys of the contact that `chosen` accepts.
-std::vector<KeyValue> take_contact(ContactBlock contact,
-                                   const std::function<bool(const Key&)>& chosen) {
-  return take_values([&contact](Visitor& visitor) { describe_contact(visitor, contact); }, chosen);
-}
-
 /// Scene by which "auto" calibrates: the keys of its cells and contact that the law depends on, all
 /// else as by default, so that any scene that asks first gets the same law.
 Scene made_for_law(const Scene& scene) {
@@ -73,23 +66,10 @@ Scene made_for_law(const Scene& scene) {
   return s;
 }
 
-/// Text of a value to its last digit; -1 for "auto".
-std::string exact_text(const KeyValue& value) {
-  if (const auto* text = std::get_if<std::string>(&value)) return *text;
-  if (const auto* number = std::get_if<double>(&value)) return fmt::format("{:a}", *number);
-  if (const auto* number = std::get_if<std::optional<double>>(&value))
-    return fmt::format("{:a}", number->value_or(-1));
-  if (const auto* number = std::get_if<int>(&value)) return std::to_string(*number);
-  return std::get<bool>(value) ? "true" : "false";
-}
-
 /// Name of a law in the cache: a hash of all it depends on, to the last digit.
 std::string key_of(const Scene& scene, const LawParameters& p) {
-  std::vector<std::string> settings;
-  for (const KeyValue& value :
-       take_contact(scene.contact, [](const Key& key) { return key.in_law == InLaw::kSetting; }))
-    settings.push_back(exact_text(value));
-  std::string text = fmt::format("{}\n{}\n", calibration::kLawSchema, fmt::join(settings, " "));
+  std::string text =
+      fmt::format("{}\n{}\n", calibration::kLawSchema, fmt::join(law_settings(scene.contact), " "));
   for (const auto* model : {&p.dcm, &p.cbm})
     for (const auto& [name, value] : *model) text += fmt::format("{} {:a}\n", name, value);
   return fmt::format("{:016x}", XXH64(text.data(), text.size(), 0));
@@ -110,6 +90,7 @@ std::string find_failure(const std::string& law_file) {
 }  // namespace
 
 int resolve_corrections(Scene& scene, int threads, bool quiet) {
+  use_shipped_laws(scene);
   for (auto& [name, type] : scene.cell_types) {
     if (type.cbm.stiffness_correction != "auto") continue;
     const std::string file =

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/units/units.hpp"
+#include "runs/scene/shipped_scenes.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -151,6 +152,34 @@ bool ValueReader::read_long(const Key& key, const Node& node, const std::string&
   return false;
 }
 
+namespace {
+
+fs::path shipped_folder(const Key& key) {
+  return fs::path(scene_folder()).parent_path() / key.shipped;
+}
+
+/// Shipped file of a name, for keys that have them; else empty.
+std::string find_shipped(const Key& key, const std::string& name) {
+  if (key.shipped[0] == 0 || name.find_first_of(std::string("./\0", 3)) != std::string::npos)
+    return "";
+  const fs::path path = shipped_folder(key) / (name + ".json");
+  std::error_code code;
+  return fs::is_regular_file(path, code) ? path.string() : "";
+}
+
+/// End of the message about a missing file: names of the shipped ones.
+std::string shipped_names(const Key& key) {
+  if (key.shipped[0] == 0) return "";
+  std::vector<std::string> names;
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(shipped_folder(key), code))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  return fmt::format("; shipped {}: {}", key.shipped, fmt::join(names, ", "));
+}
+
+}  // namespace
+
 void ValueReader::read_file_name(const Key& key, const Node& node, const std::string& pointer,
                                  std::string& value) const {
   if (node.text.empty()) {
@@ -158,12 +187,15 @@ void ValueReader::read_file_name(const Key& key, const Node& node, const std::st
     return;
   }
   const Source& source = document_.sources.at(node.origin.source);
-  const std::string path = (fs::path(source.folder) / node.text).lexically_normal().string();
+  std::string path = (fs::path(source.folder) / node.text).lexically_normal().string();
   std::error_code code;
-  if (node.text.find('\0') != std::string::npos || !fs::is_regular_file(path, code)) {
-    report_.add_value(node, pointer, "no such file: " + pointer_path(path));
+  const bool is_file = node.text.find('\0') == std::string::npos && fs::is_regular_file(path, code);
+  const std::string shipped = is_file ? "" : find_shipped(key, node.text);
+  if (!is_file && shipped.empty()) {
+    report_.add_value(node, pointer, "no such file: " + pointer_path(path) + shipped_names(key));
     return;
   }
+  if (!is_file) path = shipped;
   value = path;
 }
 

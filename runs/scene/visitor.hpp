@@ -59,6 +59,7 @@ struct Key {
   bool required = false;
   const char* automatic = "";        ///< meaning of "auto"; "" = "auto" is not allowed
   bool is_file = false;              ///< a text that is a path, or one of the choices
+  const char* shipped = "";          ///< folder of shipped files that a name without ".json" finds
   bool is_run = false;               ///< a text that is the path of a run folder
   bool is_name = false;              ///< a text that is a name: letters, digits, _ and -
   bool is_label = false;             ///< the same with spaces inside

@@ -60,9 +60,9 @@ class Recorder {
   bool has_frame() const { return last_frame_ > kNoFrame; }
   /// Unresolvable overlaps of the last frame.
   const Excess& excess() const { return excess_; }
-  double wall_s() const {
-    return wall_before_ + wall_seconds() - started_;
-  }  ///< wall time including the runs it continues
+  /// Wall time including the runs it continues, s.
+  double wall_s() const { return wall_before_ + wall_seconds() - started_; }
+  const RunTotals& totals() const { return totals_; }
 
  private:
   const Ranks& ranks() const { return simulation_.world().ranks; }

@@ -32,6 +32,7 @@
 #include "runs/session/run_folder.hpp"
 #include "runs/session/shell_quote.hpp"
 #include "runs/session/skipped.hpp"
+#include "runs/session/sphere_overlaps.hpp"
 #include "runs/session/together.hpp"
 #include "runs/session/traffic.hpp"
 
@@ -315,6 +316,9 @@ int SceneRun::go() {
   if (code == 0) {
     progress_.note(fmt::format("completed {:.4g} h in {:.1f} s; results in {}", time() / 3600,
                                recorder_.wall_s(), options_.out));
+    if (const std::string deep = describe_sphere_overlaps(world(), recorder_.totals());
+        !deep.empty())
+      progress_.note(deep);
     if (!options_.is_part)
       progress_.note(
           fmt::format("to look at it: acinus report {} makes a page for the browser; "

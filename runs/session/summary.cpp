@@ -1,4 +1,5 @@
 #include "runs/session/summary.hpp"
+#include "runs/session/sphere_overlaps.hpp"
 
 #include <fmt/format.h>
 
@@ -97,7 +98,8 @@ void add_errors(const SummaryInput& in, OrderedJson& j) {
                          {"dcm_wall", finite_number(t.dcm_wall_um)},
                          {"dcm_cbm_beyond_indentation", finite_number(t.dcm_cbm_beyond_um)}};
   j["overlap_of_spheres_um"] = {{"cbm_vessel", finite_number(t.cbm_vessel_um)},
-                                {"cbm_wall", finite_number(t.cbm_wall_um)}};
+                                {"cbm_wall", finite_number(t.cbm_wall_um)},
+                                {"radius", finite_number(largest_sphere(s))}};
   j["max_overlap_dcm_cbm_um"] = finite_number(t.dcm_cbm_um);
   j["max_overlap_cbm_um"] = finite_number(t.max_overlap_cbm_um);
   j["min_triangle_quality"] = finite_number(t.min_triangle_quality);

@@ -1,0 +1,38 @@
+#include "runs/assemble/law_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <variant>
+
+#include "runs/scene/registry_blocks.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// Text of a value to its last digit; -1 for "auto".
+std::string exact_text(const KeyValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* number = std::get_if<double>(&value)) return fmt::format("{:a}", *number);
+  if (const auto* number = std::get_if<std::optional<double>>(&value))
+    return fmt::format("{:a}", number->value_or(-1));
+  if (const auto* number = std::get_if<int>(&value)) return std::to_string(*number);
+  return std::get<bool>(value) ? "true" : "false";
+}
+
+}  // namespace
+
+std::vector<KeyValue> take_contact(ContactBlock contact,
+                                   const std::function<bool(const Key&)>& chosen) {
+  return take_values([&contact](Visitor& visitor) { describe_contact(visitor, contact); }, chosen);
+}
+
+std::vector<std::string> law_settings(const ContactBlock& contact) {
+  std::vector<std::string> settings;
+  for (const KeyValue& value :
+       take_contact(contact, [](const Key& key) { return key.in_law == InLaw::kSetting; }))
+    settings.push_back(exact_text(value));
+  return settings;
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,68 @@
+#include "runs/assemble/shipped_laws.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include "calibration/law_file.hpp"
+#include "core/error.hpp"
+#include "runs/assemble/build_correction.hpp"
+#include "runs/assemble/law_settings.hpp"
+#include "runs/scene/shipped_scenes.hpp"
+
+namespace acinus::runs {
+
+namespace fs = std::filesystem;
+
+std::string law_folder() { return (fs::path(scene_folder()).parent_path() / "laws").string(); }
+
+std::vector<std::string> list_laws(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
+    if (entry.path().extension() == ".json") files.push_back(entry.path().string());
+  std::ranges::sort(files);
+  return files;
+}
+
+std::string describe_law(const std::string& file) {
+  try {
+    const calibration::Parameters cell = calibration::read_law(file).dcm;
+    const auto value = [&cell](const char* name) {
+      const auto found = cell.find(name);
+      return found == cell.end() ? 0.0 : found->second;
+    };
+    return fmt::format("cells of {:g} um, {:g} nodes, K_V = {:g} Pa, W = {:g} J/m^2",
+                       value("radius_um"), value("nodes"), 1e3 * value("bulk_modulus_kPa"),
+                       1e-3 * value("adhesion_nN_per_um"));
+  } catch (const Error& error) {
+    return std::string("cannot be read: ") + error.what();
+  }
+}
+
+std::string find_shipped_law(const Scene& scene, const CellType& type) {
+  // Shipped laws were calibrated with the default settings of contact. Quadratures agree to 8 % of
+  // the modulus, less than a law errs in other tissue (docs/calibration.md).
+  const ContactBlock defaults;
+  ContactBlock contact = scene.contact;
+  contact.quadrature = defaults.quadrature;
+  if (law_settings(contact) != law_settings(defaults)) return "";
+  const LawParameters here = law_parameters(scene, type);
+  for (const std::string& file : list_laws(law_folder())) {
+    const calibration::Law law = calibration::read_law(file);
+    if (calibration::list_differences(law, here.dcm, here.cbm).empty()) return file;
+  }
+  return "";
+}
+
+void use_shipped_laws(Scene& scene) {
+  for (auto& [name, type] : scene.cell_types) {
+    if (type.cbm.stiffness_correction != "auto") continue;
+    const std::string file = find_shipped_law(scene, type);
+    if (!file.empty()) type.cbm.stiffness_correction = file;
+  }
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,30 @@
+#pragma once
+/// Stiffness laws that come with the program, so that scenes with the cells of Table 1 need no
+/// calibration of their own.
+
+#include <string>
+#include <vector>
+
+#include "runs/scene/scene.hpp"
+
+namespace acinus::runs {
+
+/// Folder of the shipped laws, beside that of the shipped scenes.
+std::string law_folder();
+
+/// Law files of a folder by name; empty without the folder.
+std::vector<std::string> list_laws(const std::string& folder);
+
+/// Cells of a law in words, e.g. "cells of 12 um, 162 nodes, K_V = 2500 Pa, W = 1e-5 J/m^2"; the
+/// error if the file cannot be read.
+std::string describe_law(const std::string& file);
+
+/// Shipped law for a cell type of a scene: of cells with the same constants, calibrated with the
+/// same settings of contact, whatever the quadrature.
+/// @return the law file; empty if there is none
+std::string find_shipped_law(const Scene& scene, const CellType& type);
+
+/// Replaces stiffness_correction "auto" of every cell type that a shipped law fits by its file.
+void use_shipped_laws(Scene& scene);
+
+}  // namespace acinus::runs
