@@ -5,10 +5,8 @@
 
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
-#include "runs/assemble/build_params.hpp"
+#include "runs/assemble/law_parameters.hpp"
 #include "runs/assemble/shipped_laws.hpp"
-#include "runs/scene/key_values.hpp"
-#include "runs/scene/registry_blocks.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -23,22 +21,6 @@ std::string describe(const calibration::Law& law) {
 }
 
 }  // namespace
-
-LawParameters law_parameters(const Scene& scene, const CellType& type) {
-  LawParameters out;
-  const auto add = [&out](const Key& key, const KeyField& field) {
-    if (key.in_law == InLaw::kDcm || key.in_law == InLaw::kBoth)
-      out.dcm[key.law_name] = number_in(field);
-    if (key.in_law == InLaw::kCbm || key.in_law == InLaw::kBoth)
-      out.cbm[key.law_name] = number_in(field);
-  };
-  CellType cell = type;
-  cell.cbm.young = make_cbm_params(scene, type).young;  // where it is "auto"
-  ContactBlock contact = scene.contact;
-  for_each_value([&cell](Visitor& visitor) { describe_cell_type(visitor, cell); }, add);
-  for_each_value([&contact](Visitor& visitor) { describe_contact(visitor, contact); }, add);
-  return out;
-}
 
 void build_corrections(const Scene& scene, std::vector<cbm::Params>& params, Notes& notes) {
   std::size_t k = 0;

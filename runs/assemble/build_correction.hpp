@@ -11,12 +11,6 @@
 
 namespace acinus::runs {
 
-/// Every constant of a cell type that a calibrated law depends on (Key::in_law).
-struct LawParameters {
-  calibration::Parameters dcm, cbm;
-};
-LawParameters law_parameters(const Scene& scene, const CellType& type);
-
 /// Reads the stiffness law of every cell type that names one and enters it into its sphere
 /// constants. The modulus of the spheres becomes a0 of the law.
 /// @param params  [n_type], in the order of scene.cell_types

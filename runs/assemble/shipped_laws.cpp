@@ -8,8 +8,7 @@
 
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
-#include "runs/assemble/build_correction.hpp"
-#include "runs/assemble/law_settings.hpp"
+#include "runs/assemble/law_parameters.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 
 namespace acinus::runs {

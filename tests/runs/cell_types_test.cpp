@@ -6,7 +6,7 @@
 
 #include <map>
 
-#include "runs/assemble/build_correction.hpp"
+#include "runs/assemble/law_parameters.hpp"
 #include "runs/assemble/build_params.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/assemble/cell_constants.hpp"

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "runs/assemble/build_correction.hpp"
+#include "runs/assemble/law_parameters.hpp"
 #include "runs/assemble/start_state.hpp"
 #include "runs/experiments/read_scene.hpp"
 #include "runs/scene/differences.hpp"

@@ -265,7 +265,8 @@ TEST_F(StudyProgram, KilledAndStartedAgainItWritesTheSameTable) {
 TEST_F(StudyProgram, StoppedWhileAnotherProcessCalibratesItStillReports) {
   setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);
   write("auto.json", R"({ "name": "auto", "scene": "two_cells",
-    "set": { "cells.model": "cbm", "cell_types.hepatocyte.cbm.stiffness_correction": "auto" },
+    "set": { "cells.model": "cbm", "cell_types.hepatocyte.adhesion": "2e-5 J/m^2",
+      "cell_types.hepatocyte.cbm.stiffness_correction": "auto" },
     "seeds": [1], "variants": { "only": {} }, "observables": ["cells"] })");
   Process first(path("."), words("auto.json", "a"));
   ASSERT_TRUE(first.await("compressing"));

@@ -1,10 +1,11 @@
-#include "runs/assemble/law_settings.hpp"
+#include "runs/assemble/law_parameters.hpp"
 
 #include <fmt/format.h>
 
 #include <optional>
 #include <variant>
 
+#include "runs/assemble/build_params.hpp"
 #include "runs/scene/registry_blocks.hpp"
 
 namespace acinus::runs {
@@ -21,6 +22,22 @@ std::string exact_text(const KeyValue& value) {
 }
 
 }  // namespace
+
+LawParameters law_parameters(const Scene& scene, const CellType& type) {
+  LawParameters out;
+  const auto add = [&out](const Key& key, const KeyField& field) {
+    if (key.in_law == InLaw::kDcm || key.in_law == InLaw::kBoth)
+      out.dcm[key.law_name] = number_in(field);
+    if (key.in_law == InLaw::kCbm || key.in_law == InLaw::kBoth)
+      out.cbm[key.law_name] = number_in(field);
+  };
+  CellType cell = type;
+  cell.cbm.young = make_cbm_params(scene, type).young;  // where it is "auto"
+  ContactBlock contact = scene.contact;
+  for_each_value([&cell](Visitor& visitor) { describe_cell_type(visitor, cell); }, add);
+  for_each_value([&contact](Visitor& visitor) { describe_contact(visitor, contact); }, add);
+  return out;
+}
 
 std::vector<KeyValue> take_contact(ContactBlock contact,
                                    const std::function<bool(const Key&)>& chosen) {
