@@ -55,6 +55,15 @@ double next_step(const Numerics& n, double step, double error) {
   return std::clamp(step * factor, n.min_step, n.max_step);
 }
 
+/// Length of a retry over that of the rejected step. What is shortened too much to be taken is
+/// computed again with twice the length that would do if motion were steady, since motion that
+/// decays within a step is faster in a shorter one.
+/// @param usable  part of the rejected displacement that would do; 0: unknown
+double retry_factor(double usable) {
+  constexpr double kLeast = 1.0 / 16, kUsual = 0.5;
+  return usable > 0 ? std::clamp(2 * usable, kLeast, kUsual) : kUsual;
+}
+
 void record_balance(const World& world, Workspace& w, Balance& largest) {
   const Balance b = measure_balance(world, w);
   largest.momentum = std::max(largest.momentum, b.momentum);
@@ -123,7 +132,7 @@ StepResult take_step(World& world, Workspace& w, double limit) {
     result.cause = a.cause;
     result.cells = a.cells;
     if (computed <= n.min_step) return result;
-    wanted = std::max(0.5 * computed, n.min_step);
+    wanted = std::max(retry_factor(a.usable) * computed, n.min_step);
   }
 }
 

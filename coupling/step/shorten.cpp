@@ -15,7 +15,8 @@ bool has_noise(const World& world, double step) {
   const Clock& clock = world.state.clock;
   if (!m.random || !controls_at(clock, world.params.start_up).motility) return false;
   const double now = clock.time - clock.origin;
-  return crosses_grid(now, now + step, m.grid);
+  constexpr double kWithin = 1 - 1e-6;  // a step may end where the force changes
+  return crosses_grid(now, now + kWithin * step, m.grid);
 }
 
 bool can_shorten(const World& world, double step, const Workspace& w) {
@@ -32,7 +33,10 @@ double shorten_step(const World& world, double step, Workspace& w, Assessment& a
   for (int k = 0; k < kMostTries && !a.accepted; ++k) {
     const double factor = a.usable;
     part *= factor;
-    if (part < kLeastPart) return 1;
+    if (part < kLeastPart) {
+      a.usable = part;
+      return 1;
+    }
     for_each_number(w.move.size(), [&](std::size_t i) { w.move[i] *= factor; });
     a = assess_step(world, step * part, part, {}, w);
   }

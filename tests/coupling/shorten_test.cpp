@@ -51,7 +51,7 @@ TEST(Shorten, ComputesAShorterStepWhereThePartIsTooSmall) {
   SizedWorkspace work(w);
   const StepResult step = take_step(w, work, 60);
   ASSERT_TRUE(step.accepted) << step.cause;
-  EXPECT_EQ(step.rejections, 2);  // 60 and 30 s; of 15 s a part
+  EXPECT_EQ(step.rejections, 1);
   EXPECT_NEAR(step.step, 60 * 0.95 / 20, 1e-9);
 }
 
