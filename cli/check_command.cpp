@@ -8,6 +8,7 @@
 #include "core/parallel/memory.hpp"
 #include "core/parallel/stop.hpp"
 #include "runs/assemble/build_world.hpp"
+#include "runs/assemble/law_parameters.hpp"
 #include "runs/assemble/memory_need.hpp"
 #include "runs/assemble/shipped_laws.hpp"
 #include "runs/experiments/read_scene.hpp"
@@ -47,7 +48,7 @@ int check_scene(const CheckArguments& arguments) {
   runs::use_shipped_laws(plain);
   std::vector<std::string> later;
   for (auto& [name, type] : plain.cell_types) {
-    if (type.cbm.stiffness_correction != "auto") continue;
+    if (type.cbm.stiffness_correction != "auto" || !runs::may_have_spheres(plain)) continue;
     type.cbm.stiffness_correction = "none";
     later.push_back(name + ": calibrated when the scene runs, if that was not done before");
   }

@@ -33,6 +33,7 @@ void build_corrections(const Scene& scene, std::vector<cbm::Params>& params, Not
       notes.info.push_back(name + ": E = E + 4e6 Pa d^4, d the mean overlap of the contacts");
       continue;
     }
+    if (file == "auto" && !may_have_spheres(scene)) continue;
     if (file == "auto") file = find_shipped_law(scene, type);
     check(!file.empty(),
           fmt::format("/cell_types/{}/cbm/stiffness_correction: no shipped law fits these cells, "

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <variant>
 
@@ -37,6 +38,13 @@ LawParameters law_parameters(const Scene& scene, const CellType& type) {
   for_each_value([&cell](Visitor& visitor) { describe_cell_type(visitor, cell); }, add);
   for_each_value([&contact](Visitor& visitor) { describe_contact(visitor, contact); }, add);
   return out;
+}
+
+bool may_have_spheres(const Scene& scene) {
+  if (scene.model.value_or(scene.cells.model) != CellModel::kDcm) return true;
+  return !scene.model && std::ranges::any_of(scene.cells.list, [](const CellEntry& cell) {
+    return cell.model == CellModel::kCbm;
+  });
 }
 
 std::vector<KeyValue> take_contact(ContactBlock contact,

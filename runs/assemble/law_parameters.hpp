@@ -17,6 +17,9 @@ struct LawParameters {
 };
 LawParameters law_parameters(const Scene& scene, const CellType& type);
 
+/// True if a scene may have spheres at some time, so that their law matters.
+bool may_have_spheres(const Scene& scene);
+
 /// Values of the keys of the contact that `chosen` accepts.
 std::vector<KeyValue> take_contact(ContactBlock contact,
                                    const std::function<bool(const Key&)>& chosen);

@@ -69,7 +69,7 @@ Scene compression_scene(const Scene& scene, const ClumpOptions& options) {
   }
   const std::string name = choose_type(scene, options.type);
   CellType type = scene.cell_types.at(name);
-  type.cycle.time = 0;
+  type.cycle = {};  // else they would start at a random age, with its size
   type.diffusion = 0;
   type.dcm.local_area_modulus =
       std::max(type.dcm.local_area_modulus, kLeastLocalAreaModulus * type.dcm.bulk_modulus);

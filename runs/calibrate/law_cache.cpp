@@ -89,6 +89,7 @@ std::string find_failure(const std::string& law_file) {
 }  // namespace
 
 int resolve_corrections(Scene& scene, int threads, bool quiet) {
+  if (!may_have_spheres(scene)) return 0;
   use_shipped_laws(scene);
   for (auto& [name, type] : scene.cell_types) {
     if (type.cbm.stiffness_correction != "auto") continue;

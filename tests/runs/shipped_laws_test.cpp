@@ -9,6 +9,8 @@
 #include <string>
 
 #include "calibration/law_file.hpp"
+#include "runs/assemble/law_parameters.hpp"
+#include "runs/calibrate/compression_scene.hpp"
 #include "runs/experiments/read_scene.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 #include "tests/messages.hpp"
@@ -86,6 +88,27 @@ TEST(ShippedLaws, AreFoundByNameAndAMissingOneNamesThem) {
       EXPECT_CONTAINS(std::string(error.what()), "shipped laws: ");
     }
   }
+}
+
+TEST(ShippedLaws, MatterWhereThereMayBeSpheres) {
+  const auto scene = [](const std::string& model, const std::string& set) {
+    return may_have_spheres(parse_scene(
+        R"({ "experiment": "free", "time": { "end": "1 h" }, "cells": { "source": "list", )" +
+            model + R"("list": [ { "position": ["0 um", "0 um", "0 um"] )" + set + "} ] } }",
+        "shipped_laws_test.json", scene_folder()));
+  };
+  EXPECT_TRUE(scene(R"("model": "cbm", )", ""));
+  EXPECT_FALSE(scene(R"("model": "dcm", )", ""));
+  EXPECT_TRUE(scene(R"("model": "dcm", )", R"(, "model": "cbm")"));
+}
+
+TEST(ShippedLaws, ACellsAgeIsNotThatOfTheClumpItIsCalibratedIn) {
+  // A random age would be a random size, and the clump would start inside its capsule.
+  const Scene scene = scene_with(
+      types(R"("adhesion": "1e-5 J/m^2", "cycle": { "time": "24 h", "start": "random" })"));
+  const CellType& type = compression_scene(scene, {}).cell_types.at("a");
+  EXPECT_EQ(type.cycle.time, 0);
+  EXPECT_FALSE(type.cycle.random_start);
 }
 
 }  // namespace
