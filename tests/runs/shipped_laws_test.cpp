@@ -93,7 +93,7 @@ TEST(ShippedLaws, AreFoundByNameAndAMissingOneNamesThem) {
 TEST(ShippedLaws, MatterWhereThereMayBeSpheres) {
   const auto scene = [](const std::string& model, const std::string& set) {
     return may_have_spheres(parse_scene(
-        R"({ "experiment": "free", "time": { "end": "1 h" }, "cells": { "source": "list", )" +
+        R"({ "experiment": "free", "time": { "end": "1 h" }, "cell_types": { "a": {} }, "cells": { "source": "list", )" +
             model + R"("list": [ { "position": ["0 um", "0 um", "0 um"] )" + set + "} ] } }",
         "shipped_laws_test.json", scene_folder()));
   };
