@@ -73,7 +73,8 @@ class ObstacleSearch {
   }
   /// Modulus toward an obstacle. @param overlap  relative, of the contact alone
   FaceModulus face_of(std::size_t i, double overlap) const {
-    return modulus_toward(params_of(i).correction, in_.state.young[i], work_.modulus[i], overlap);
+    return modulus_toward(params_of(i).correction, in_.state.young[i], work_.modulus[i], overlap,
+                          kOwnObstacleOverlap);
   }
   static SphereBody flat(const contact::Material& m, double shape) {
     return {shape, m.young, m.poisson};
@@ -165,8 +166,8 @@ class ObstacleSearch {
     evaluate_mirror(k, g.gap);
   }
 
-  /// Evaluates a mirror plane. It stands for an equal cell, which a law stiffens like any single
-  /// neighbour.
+  /// Evaluates a mirror plane. It stands for an equal cell, which a law stiffens like a single
+  /// neighbour, from a deeper overlap on.
   /// @param gap  um, of the centre
   void evaluate_mirror(const Contact& k, double gap) {
     const std::size_t i = k.a;

@@ -92,9 +92,13 @@ inline Modulus corrected_modulus(const StiffnessLaw& law, double young, double d
   return m;
 }
 
-/// Relative overlap, over the range of the law, up to which a single neighbour's own overlap does
-/// not count: in the clump that a law was fitted to, none had more when this was the average.
+/// Relative overlap, over the range of the law, up to which the own overlap with a single neighbour
+/// does not count. Daughters have more.
 inline constexpr double kOwnOverlap = 1;
+
+/// The same for a vessel or a mirror wall: deformable cells flow round a vessel and flatten at a
+/// wall, by as much as twice the range at a few pascals (docs/decisions/0048.md).
+inline constexpr double kOwnObstacleOverlap = 2;
 
 /// Modulus of one side of a contact.
 struct FaceModulus : Modulus {
@@ -103,13 +107,14 @@ struct FaceModulus : Modulus {
 
 /// Modulus E~ of a cell toward one neighbour. d is a mean over twelve and unsuitable where one
 /// neighbour overlaps much more than all others, as daughters in dense tissue do: there the cell is
-/// as stiff as if all overlapped as much, less the range of the law.
+/// as stiff as if all overlapped as much, less the onset.
 /// @param crowd    E~(d) and its slope
 /// @param overlap  of this pair, over the sum of the radii
+/// @param onset    overlap that does not count, over the range
 /// @return with the slope by `overlap` if that counts, else `crowd`
 inline FaceModulus modulus_toward(const StiffnessLaw& law, double young, const Modulus& crowd,
-                                  double overlap) {
-  const double beyond = overlap - kOwnOverlap * law.range;
+                                  double overlap, double onset = kOwnOverlap) {
+  const double beyond = overlap - onset * law.range;
   if (!law.corrects() || !law.single_overlaps || beyond <= 0) return {crowd};
   const Modulus own = corrected_modulus(law, young, beyond);
   if (own.value > crowd.value) return {own, true};

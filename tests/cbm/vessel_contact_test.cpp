@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "cbm/contact.hpp"
 #include "contact/hertz.hpp"
 #include "contact/jkr.hpp"
 #include "tests/cbm/spheres.hpp"
@@ -44,6 +45,11 @@ TEST(Vessels, StiffenASphereThatIsPressedInDeeperThanItsLawWasFittedFor) {
   EXPECT_NEAR(
       soft.force,
       contact::hertz_force(contact::vessel_pair({12, 0.05, 0.47}, {4.7, 0.6, 0.4}, 0), 3).force,
+      1e-12);
+  // At 6 um it is 0.36, where deformable cells flow round a vessel at little pressure.
+  EXPECT_NEAR(
+      force(6).force,
+      contact::hertz_force(contact::vessel_pair({12, 0.05, 0.47}, {4.7, 0.6, 0.4}, 0), 6).force,
       1e-12);
   // With the centre near the wall the overlap is 0.71 of both radii: the cell is at the cap of its
   // law, and the wall has yielded all it can.
@@ -92,12 +98,18 @@ TEST(Walls, AMirrorStiffensASphereAsASingleNeighbourDoes) {
     s.find();
     return s.obstacle()[0];
   };
-  // 6 um: an overlap of 0.5 with the image, 0.3 beyond the range, where the law is at its cap.
-  const double modulus = corrected_modulus(law, 0.05, 0.3).value;
+  // 8 um: an overlap of 0.33 with the image, where deformable cells flatten at little pressure.
+  EXPECT_NEAR(at(8).force,
+              contact::mirror_wall_force(
+                  {12, corrected_modulus(law, 0.05, 4.0 / 12 / kNeighbours).value, 0.47}, 8)
+                  .force,
+              1e-9);
+  // 6 um: an overlap of 0.5, which is 0.1 beyond twice the range.
+  const double modulus = corrected_modulus(law, 0.05, 0.1).value;
   EXPECT_NEAR(at(6).force, contact::mirror_wall_force({12, modulus, 0.47}, 6).force, 1e-9);
   // The force follows from the height alone there, and the slope is its own.
   constexpr double h = 1e-5;
-  for (const double height : {8.4, 8.0, 5.0})
+  for (const double height : {6.4, 6.0, 5.0})
     EXPECT_NEAR(at(height).slope, (at(height - h).force - at(height + h).force) / (2 * h),
                 1e-5 * at(height).slope)
         << height;
