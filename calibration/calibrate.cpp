@@ -33,6 +33,13 @@ double overlap_at_rest(const std::vector<ClumpSample>& central) {
   return std::ranges::min_element(first, central.end(), {}, &ClumpSample::pressure)->overlap;
 }
 
+/// Overlap of two cells in the last snapshot, over the sum of their radii; 0 if they are apart.
+double overlap_of_pair(const std::vector<ClumpSnapshot>& snapshots) {
+  const ClumpSnapshot& last = snapshots.back();
+  const double apart = (last.center[0] - last.center[1]).norm();
+  return std::max(0.0, 1 - apart / (last.radius[0] + last.radius[1]));
+}
+
 /// Compresses spheres with the law until they carry the force of the cells in a capsule as wide, by
 /// increasing their recess at walls by the excess of the capsule each time.
 /// @return exit code of a run that was stopped or failed, else 0
@@ -100,8 +107,7 @@ Calibration calibrate(const Clump& clump, const Options& options, const Runs& ru
   const CompressionRun deformable = runs.compress(ClumpModel::kDeformable, {});
   found.exit = deformable.exit;
   if (found.exit != 0 && found.exit != kCannotContinue) return found;
-  const Compression cells{deformable.snapshots,
-                          find_inner_cells(deformable.snapshots, clump.center)};
+  Compression cells{deformable.snapshots, find_inner_cells(deformable.snapshots, clump.center)};
   found.inner = static_cast<int>(cells.inner.size());
   found.dcm = force_curve(cells.snapshots, cells.inner);
   if (found.exit != 0 && !is_worth_fitting(found.dcm, runs)) return found;
@@ -113,6 +119,12 @@ Calibration calibrate(const Clump& clump, const Options& options, const Runs& ru
   found.contacts_last = deformable.central.back().contacts;
   found.overlap_at_rest = overlap_at_rest(deformable.central);
 
+  if (clump.sphere.adhesion > 0) {
+    const CompressionRun pair = runs.join_pair();
+    found.exit = pair.exit;
+    if (found.exit != 0) return found;
+    found.pair_overlap = cells.pair_overlap = overlap_of_pair(pair.snapshots);
+  }
   runs.say("fitting the law");
   found.attempts = fit_law(cells, clump.sphere, options.fit);
   found.law = make_law(clump, found.attempts.back());

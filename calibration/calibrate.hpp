@@ -44,6 +44,8 @@ struct CompressionRun {
 struct Runs {
   /// Compresses the clump. @param law  of corrected spheres; other models ignore it
   std::function<CompressionRun(ClumpModel model, const Law& law)> compress;
+  /// Lets two deformable cells that touch come to rest. Their CompressionRun has no central cell.
+  std::function<CompressionRun()> join_pair;
   /// Deformable cells at the end of their compression.
   std::function<coupling::World()> compressed_world;
   std::function<void(const std::string& text)> say;  ///< reports progress
@@ -60,14 +62,16 @@ struct Calibration {
   double capsule_excess = 0;  ///< um, by which the capsule of the corrected spheres is wider
   double contacts_first = 0, contacts_last = 0;  ///< of the central deformable cell
   double overlap_at_rest = 0;                    ///< its d without load
+  double pair_overlap = 0;                       ///< Compression::pair_overlap
   std::vector<Relaxation> relaxation;            ///< Table 1, all friction x 5 (empty: not asked)
   FrictionFit friction;        ///< fit to Options::relaxation_time; 0: not asked for
   double friction_before = 0;  ///< nN s/um^3
   FrictionFit checked;         ///< relaxation with Options::check_friction
 };
 
-/// Calibrates the law: compresses the clump as deformable cells and as spheres, fits, compresses
-/// the corrected spheres until their capsule is as wide, lets the deformable ones relax.
+/// Calibrates the law: compresses the clump as deformable cells and as spheres, lets two of the
+/// cells adhere, fits, compresses the corrected spheres until their capsule is as wide, lets the
+/// deformable ones relax.
 /// @throws Error(kCannotContinue) where the compression gives too little data or no law fits
 Calibration calibrate(const Clump& clump, const Options& options, const Runs& runs);
 

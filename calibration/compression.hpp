@@ -22,6 +22,9 @@ struct ClumpSnapshot {
 struct Compression {
   std::vector<ClumpSnapshot> snapshots;  ///< over time
   std::vector<std::size_t> inner;  ///< cells that represent tissue: all but those at the capsule
+  /// Overlap of two such cells that adhere and are at rest, over the sum of their radii; 0: they do
+  /// not adhere, or it is unknown.
+  double pair_overlap = 0;
 };
 
 /// Means over the inner cells. A single cell is not enough: at one pressure d differs from cell to

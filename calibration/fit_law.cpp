@@ -33,7 +33,7 @@ struct Samples {
 
 Samples choose_samples(const Compression& compression, const cbm::Params& sphere, double highest) {
   Samples chosen;
-  chosen.compression = {{}, compression.inner};
+  chosen.compression = {{}, compression.inner, compression.pair_overlap};
   chosen.range = {highest, 0};
   const std::vector<Bulk> bulks = measure_bulks(compression.snapshots, compression.inner);
   for (const std::size_t k : find_pressing(bulks, highest)) {

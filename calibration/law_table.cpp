@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "cbm/contact.hpp"
+#include "contact/jkr.hpp"
+
 namespace acinus::calibration {
 namespace {
 
@@ -90,6 +93,25 @@ std::vector<TableEntry> make_table(std::vector<Demand> demands) {
   return table;
 }
 
+/// Entry of two cells alone: the modulus with which a pair of spheres rests at this overlap. At
+/// rest it falls with the overlap to the power 3/2.
+TableEntry pair_entry(double overlap, double radius, const cbm::Params& sphere) {
+  const contact::SphereBody body{radius, sphere.young, sphere.poisson};
+  const double rest =
+      contact::jkr_special(contact::reduced_pair(body, body, sphere.adhesion)).zero_force.overlap;
+  return {overlap / cbm::kNeighbours, sphere.young * std::pow(rest / (2 * radius * overlap), 1.5)};
+}
+
+/// Puts the entry of two cells alone before a table, if it is below all of that.
+void add_pair(const Compression& compression, const cbm::Params& sphere,
+              std::vector<TableEntry>& table) {
+  if (!(compression.pair_overlap > 0) || !(sphere.adhesion > 0)) return;
+  const TableEntry pair =
+      pair_entry(compression.pair_overlap, compression.snapshots.front().radius.front(), sphere);
+  if (pair.overlap < table.front().overlap && pair.modulus < table.front().modulus)
+    table.insert(table.begin(), pair);
+}
+
 }  // namespace
 
 double force_with(const Law& law, const ClumpSnapshot& snapshot, const cbm::Params& sphere,
@@ -109,8 +131,9 @@ Law tabulate_law(const Compression& compression, const cbm::Params& sphere, cons
     Law law = known;
     law.table = make_table(demands);
     if (law.table.size() < 2) break;  // the compression ends where it presses least
-    law.a0 = law.table.front().modulus;
     law.overlap_range = {law.table.front().overlap, law.table.back().overlap};
+    add_pair(compression, sphere, law.table);
+    law.a0 = law.table.front().modulus;
     double misfit = 0;
     for (Demand& d : demands) {
       const double force = force_with(law, *d.snapshot, sphere, compression.inner);

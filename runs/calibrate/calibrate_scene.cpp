@@ -27,6 +27,19 @@ namespace fs = std::filesystem;
 using calibration::ClumpModel;
 using calibration::CompressionRun;
 
+/// Reads all cells of one frame.
+calibration::ClumpSnapshot read_snapshot(const io::RunReader& reader, int frame,
+                                         const std::string& folder) {
+  calibration::ClumpSnapshot out;
+  const io::Table cells = reader.cells(frame);
+  out.radius = cell_column(cells, "radius", folder);
+  out.force = cell_column(cells, "normal_force", folder);
+  const std::vector<double>& center = cell_column(cells, "center", folder);
+  for (std::size_t i = 0; i < center.size(); i += 3)
+    out.center.emplace_back(center[i], center[i + 1], center[i + 2]);
+  return out;
+}
+
 /// Reads all cells of every frame of a compression run.
 std::vector<calibration::ClumpSnapshot> read_snapshots(const RunSummary& run) {
   const io::RunReader reader(run.folder + "/run.vtkhdf");
@@ -37,13 +50,8 @@ std::vector<calibration::ClumpSnapshot> read_snapshots(const RunSummary& run) {
                     run.folder, reader.n_frame(), capsule.size()));
   std::vector<calibration::ClumpSnapshot> out(capsule.size());
   for (std::size_t k = 0; k < out.size(); ++k) {
+    out[k] = read_snapshot(reader, static_cast<int>(k), run.folder);
     out[k].capsule = capsule[k];
-    const io::Table cells = reader.cells(static_cast<int>(k));
-    out[k].radius = cell_column(cells, "radius", run.folder);
-    out[k].force = cell_column(cells, "normal_force", run.folder);
-    const std::vector<double>& center = cell_column(cells, "center", run.folder);
-    for (std::size_t i = 0; i < center.size(); i += 3)
-      out[k].center.emplace_back(center[i], center[i + 1], center[i + 2]);
   }
   return out;
 }
@@ -78,6 +86,7 @@ class Folders {
   calibration::Runs runs() const {
     return {.compress = [this](ClumpModel model,
                                const calibration::Law& law) { return compress(model, law); },
+            .join_pair = [this] { return join_pair(); },
             .compressed_world = [this] { return compressed_world(); },
             .say = [this](const std::string& text) { say(text); }};
   }
@@ -120,6 +129,17 @@ class Folders {
     return out;
   }
 
+  CompressionRun join_pair() const {
+    say("letting two deformable cells adhere");
+    CompressionRun out;
+    out.exit = run_stage(pair_scene(compression_), {path(kPair), options_.threads, true,
+                                                    options_.fresh, options_.command_line});
+    if (out.exit != 0) return out;
+    const io::RunReader reader(path(kPair) + "/run.vtkhdf");
+    out.snapshots.push_back(read_snapshot(reader, reader.n_frame() - 1, path(kPair)));
+    return out;
+  }
+
   coupling::World compressed_world() const {
     coupling::World world = build_world(compression_, Ranks::serial()).world;
     get_state(io::load_checkpoint(path(kDeformable)).data, types_of(world.params), world.state);
@@ -134,6 +154,7 @@ class Folders {
   std::string path(const char* name) const { return folder_ + "/" + name; }
 
   static constexpr const char* kDeformable = "compression_dcm";
+  static constexpr const char* kPair = "pair_dcm";
   const Scene& compression_;
   const CalibrateOptions& options_;
   std::string folder_;

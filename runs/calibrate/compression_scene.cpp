@@ -100,6 +100,24 @@ Scene compression_scene(const Scene& scene, const ClumpOptions& options) {
   return s;
 }
 
+Scene pair_scene(const Scene& compression) {
+  constexpr double kNearlyTouching = 0.995;  // of a radius from the plane between them
+  constexpr double kTimeToRest = 6 * 3600;   // s; 1 % of the overlap is left after a fifth of it
+  Scene s = compression;
+  s.experiment = Experiment::kFree;
+  s.capsule = {};
+  s.cells.source = CellSource::kList;
+  for (const int side : {-1, 1}) {
+    CellEntry cell;
+    cell.position = {side * kNearlyTouching * s.cell_types.begin()->second.radius, 0, 0};
+    s.cells.list.push_back(cell);
+  }
+  s.time.end = kTimeToRest;
+  s.output.every = kTimeToRest;
+  set_canonical(s);
+  return s;
+}
+
 Scene as_spheres(const Scene& compression, const std::string& law_file) {
   Scene s = compression;
   s.model = s.cells.model = CellModel::kCbm;

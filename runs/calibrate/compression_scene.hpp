@@ -24,6 +24,9 @@ std::string choose_type(const Scene& scene, const std::string& type);
 /// it takes cell type, contact, friction and seed.
 Scene compression_scene(const Scene& scene, const ClumpOptions& options);
 
+/// Scene of two of its cells that touch and adhere, for as long as they take to come to rest.
+Scene pair_scene(const Scene& compression);
+
 /// Scene of the same clump as spheres of one modulus.
 /// @param law_file  stiffness law, or "none"
 Scene as_spheres(const Scene& compression, const std::string& law_file);

@@ -138,6 +138,46 @@ TEST(Fit, MakesATableWhereOneTermIsNotEnough) {
   }
 }
 
+TEST(Fit, BeginsATableWithTheModulusAtWhichTwoSpheresRestAsTwoCells) {
+  const cbm::StiffnessLaw wanted{{}, {{0.05, 0}, {0.09, 0.1}, {0.11, 5}, {0.3, 6}}, 0.3};
+  Compression compression = compression_with(wanted, 0.1);
+  const Law without = fit_law(compression, sphere(), {}).back().law;
+  for (const double overlap : {0.1, 0.15, 0.2}) {
+    compression.pair_overlap = overlap;
+    const Law law = fit_law(compression, sphere(), {}).back().law;
+    ASSERT_EQ(law.table.size(), without.table.size() + 1) << overlap;
+    EXPECT_DOUBLE_EQ(law.table[0].overlap, overlap / 12);
+    EXPECT_EQ(law.a0, law.table[0].modulus);
+    EXPECT_LT(law.a0, law.table[1].modulus);
+    EXPECT_EQ(law.overlap_range, without.overlap_range) << "that of the clump";
+    EXPECT_NEAR(law.rms_relative, without.rms_relative, 1e-3) << "the clump's fit stays";
+    // Two spheres with the law rest there, and any nearer or farther they push or pull.
+    const auto force = [&](double d) {
+      const double young = cbm::corrected_modulus(stiffness_law(law), law.a0, d / 12).value;
+      const contact::SphereBody body{12, young, 0.47};
+      return contact::jkr_force(contact::reduced_pair(body, body, 0.01), 24 * d, true).force;
+    };
+    EXPECT_NEAR(force(overlap), 0, 1e-9);
+    EXPECT_GT(force(1.05 * overlap), 0);
+    EXPECT_LT(force(0.95 * overlap), 0);
+  }
+}
+
+TEST(Fit, LeavesAPairOutThatIsNoSofterThanTheClumpOrDoesNotAdhere) {
+  const cbm::StiffnessLaw wanted{{}, {{0.05, 0}, {0.09, 0.1}, {0.11, 5}, {0.3, 6}}, 0.3};
+  Compression compression = compression_with(wanted, 0.1);
+  const Law without = fit_law(compression, sphere(), {}).back().law;
+  const auto table_of = [&](double overlap, double adhesion) {
+    compression.pair_overlap = overlap;
+    cbm::Params p = sphere();
+    p.adhesion = adhesion;
+    return fit_law(compression, p, {}).back().law.table;
+  };
+  EXPECT_EQ(table_of(0.01, 0.01).size(), without.table.size()) << "stiffer than the clump";
+  EXPECT_EQ(table_of(0.9, 0.01).size(), without.table.size()) << "beyond the first overlap";
+  EXPECT_EQ(table_of(0.15, 0).size(), table_of(0, 0).size());
+}
+
 TEST(Fit, MakesNoTableOfACompressionThatEndsWhereItPressesLeast) {
   const cbm::StiffnessLaw wanted{{}, {{0.05, 0}, {0.09, 0.1}, {0.11, 5}, {0.3, 6}}, 0.3};
   for (const double end : {0.03, 0.3}) {  // let go; or so far in that it counts no more

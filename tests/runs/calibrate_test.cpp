@@ -56,8 +56,11 @@ TEST_F(Calibrate, WritesALawThatScenesUseAndRunsThatCompare) {
 
   // Everything is there: the second time compresses nothing.
   const Json before = json("law.calibration/compression_dcm/summary.json");
+  const Json pair = json("law.calibration/pair_dcm/summary.json");
+  EXPECT_EQ(pair["cells"]["dcm"], 2);
   ASSERT_EQ(calibrate(one_term).code, 0);
   EXPECT_EQ(json("law.calibration/compression_dcm/summary.json"), before);
+  EXPECT_EQ(json("law.calibration/pair_dcm/summary.json"), pair);
   EXPECT_EQ(json("law.json")["a1_kPa"], law["a1_kPa"]);
 
   const Words spheres{"--set", "model=cbm", "--set",
