@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,13 +71,30 @@ void leave_out_births(std::vector<JudgedFrame>& frames) {
   });
 }
 
+/// Age from which a cell counts as grown, s. Daughters begin at half the distance in one model that
+/// they begin at in the other, and spheres part for hours.
+constexpr double kGrownAge = 12 * 3600;
+
+using Births = std::map<std::int64_t, double>;  ///< s, of cells that were not there at the start
+
+/// First time of every cell that comes after the first frame.
+Births find_births(const std::vector<JudgedFrame>& frames) {
+  Births births;
+  for (const JudgedFrame& f : frames)
+    for (const auto& [id, c] : f.cells)
+      if (!frames.front().cells.contains(id)) births.try_emplace(id, f.time);
+  return births;
+}
+
 /// Mean relative density from the distances of the six nearest neighbours of each cell, up to a
-/// factor.
-double mean_density(const JudgedCells& cells) {
+/// factor; of cells born up to a time.
+double mean_density(const JudgedCells& cells, const Births& births, double born_by) {
   constexpr std::size_t kNeighbours = 6;
   double sum = 0;
   int n = 0;
   for (const auto& [id, c] : cells) {
+    if (const auto birth = births.find(id); birth != births.end() && birth->second > born_by)
+      continue;
     std::vector<double> distance;
     for (const auto& [other, o] : cells)
       if (other != id) distance.push_back((o.center - c.center).norm());
@@ -90,17 +108,21 @@ double mean_density(const JudgedCells& cells) {
   return n > 0 ? sum / n : 0;
 }
 
-/// Sum of squared differences and of squared reference values.
+/// Sums of differences, of reference values, and of their squares.
 struct Misfit {
-  double squares = 0, reference = 0;
+  double squares = 0, reference = 0, difference = 0, expected_sum = 0;
   int count = 0;
   void add(double value, double expected) {
+    difference += value - expected;
+    expected_sum += expected;
     squares += (value - expected) * (value - expected);
     reference += expected * expected;
     ++count;
   }
   double rms() const { return std::sqrt(squares / std::max(1, count)); }
   double relative() const { return std::sqrt(squares / reference); }
+  /// Relative, with its sign; 0 without a reference.
+  double bias() const { return expected_sum != 0 ? difference / expected_sum : 0; }
 };
 
 template <class Get>
@@ -110,12 +132,12 @@ double mean_of(const JudgedCells& cells, Get get) {
   return sum / static_cast<double>(std::max<std::size_t>(1, cells.size()));
 }
 
-/// Compares two series of frames at the same times; single cells are compared if both have them.
 /// @param spheres  frames at the same times; single cells are compared where both have them
 BenchRow compare(const std::string& name, const std::vector<JudgedFrame>& deformable,
                  const std::vector<JudgedFrame>& spheres) {
   constexpr double kPa = 1e3;
-  Misfit pressure, force, area, density, single;
+  Misfit pressure, force, area, density, grown, single;
+  const Births born = find_births(deformable), born_spheres = find_births(spheres);
   double mean = 0, expected = 0;
   const std::size_t n = std::min(deformable.size(), spheres.size());
   for (std::size_t k = 0; k < n; ++k) {
@@ -125,7 +147,11 @@ BenchRow compare(const std::string& name, const std::vector<JudgedFrame>& deform
     add(pressure, pressure_of);
     add(force, [](const JudgedCell& c) { return c.normal_force; });
     add(area, [](const JudgedCell& c) { return c.contact_area; });
-    density.add(mean_density(is), mean_density(should));
+    const auto add_density = [&](Misfit& m, double born_by) {
+      m.add(mean_density(is, born_spheres, born_by), mean_density(should, born, born_by));
+    };
+    add_density(density, deformable[k].time);
+    add_density(grown, deformable[k].time - kGrownAge);
     mean += mean_of(is, pressure_of) / static_cast<double>(n);
     expected += mean_of(should, pressure_of) / static_cast<double>(n);
     for (const auto& [id, c] : should)
@@ -144,7 +170,10 @@ BenchRow compare(const std::string& name, const std::vector<JudgedFrame>& deform
            {"cell_pressure_error_Pa", single.rms()},
            {"normal_force_error", force.relative()},
            {"contact_area_error", area.relative()},
-           {"density_error", density.relative()}}};
+           {"contact_area_bias", area.bias()},
+           {"density_error", density.relative()},
+           {"density_bias", density.bias()},
+           {"density_bias_grown", grown.bias()}}};
 }
 
 /// Scene to judge laws in, with its run of deformable cells.
@@ -182,17 +211,12 @@ void judge_by_themselves(const Judged& j, const std::string& law_file, int threa
                          BenchTable& table) {
   const std::vector<JudgedFrame> frames = read_frames(j.deformable);
   struct SphereRun {
-    const char *name, *folder;
+    const char* name;
     std::string law;
-    bool single_overlaps;
   };
-  for (const SphereRun& r :
-       {SphereRun{"plain", "plain", "none", true}, SphereRun{"table", "table", law_file, true},
-        SphereRun{"table, no single overlaps", "sum", law_file, false}}) {
-    runs::Scene scene = j.scene;
-    for (auto& [name, type] : scene.cell_types) type.cbm.single_overlaps = r.single_overlaps;
-    const std::string folder = fmt::format("{}_{}", j.deformable, r.folder);
-    run(runs::as_spheres(scene, r.law), folder, threads);
+  for (const SphereRun& r : {SphereRun{"plain", "none"}, SphereRun{"table", law_file}}) {
+    const std::string folder = fmt::format("{}_{}", j.deformable, r.name);
+    run(runs::as_spheres(j.scene, r.law), folder, threads);
     table.push_back(
         compare(fmt::format("{}, {}, by themselves", j.name, r.name), frames, read_frames(folder)));
     print_row(table.back());

@@ -1,7 +1,6 @@
 #include "bench/tissue/spheres_in_place.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "coupling/measure/measure.hpp"
 #include "coupling/step/workspace_size.hpp"
@@ -10,31 +9,16 @@
 namespace acinus::bench {
 namespace {
 
-/// Sum and number of the overlaps of one cell with cells and walls.
-struct CellOverlaps {
-  double sum = 0;
-  int contacts = 0;
-  void add(double overlap) {
-    if (!(overlap > 0)) return;
-    sum += overlap;
-    ++contacts;
-  }
-  double measure(OverlapMeasure by) const {
-    if (contacts == 0) return 0;
-    const double all = sum / cbm::kNeighbours;
-    return by == OverlapMeasure::kByContacts ? all * std::pow(contacts / 7.0, 0.1) : all;
-  }
-};
-
-/// Overlaps with the other cells, planes, capsules and vessels.
-std::vector<CellOverlaps> find_crowding(const JudgedCells& cells, double time,
-                                        const contact::Boundary& boundary) {
-  std::vector<CellOverlaps> out;
+/// Relative overlap d of every cell, with the other cells, planes, capsules and vessels.
+std::vector<double> find_crowding(const JudgedCells& cells, double time,
+                                  const contact::Boundary& boundary) {
+  std::vector<double> out;
   for (const auto& [id, c] : cells) {
-    CellOverlaps& own = out.emplace_back();
+    double& own = out.emplace_back(0);
+    const auto count = [&](double overlap) { own += std::max(0.0, overlap) / cbm::kNeighbours; };
     for (const auto& [other, o] : cells)
-      if (other != id) own.add(1 - (c.center - o.center).norm() / (c.radius + o.radius));
-    const auto add = [&](const contact::Gap& g) { own.add(1 - g.gap / c.radius); };
+      if (other != id) count(1 - (c.center - o.center).norm() / (c.radius + o.radius));
+    const auto add = [&](const contact::Gap& g) { count(1 - g.gap / c.radius); };
     contact::for_each_wall(boundary, [&](auto, auto, const auto& wall) {
       add(contact::gap_to_wall(wall, c.center, time));
     });
@@ -54,15 +38,12 @@ void place(const JudgedCells& cells, double time, const SphereLaw& law, coupling
     p.young = law.young;
     p.correction = own ? cbm::StiffnessLaw{} : law.correction;
   }
-  std::vector<CellOverlaps> crowding;
+  std::vector<double> crowding;
   if (own) crowding = find_crowding(cells, time, world.params.boundary);
   std::vector<cbm::NewCell> spheres;
   for (const auto& [id, c] : cells) {
     double young = law.young;
-    if (own)
-      young = cbm::corrected_modulus(law.correction, young,
-                                     crowding[spheres.size()].measure(law.measure))
-                  .value;
+    if (own) young = cbm::corrected_modulus(law.correction, young, crowding[spheres.size()]).value;
     spheres.push_back({id, 0, c.center, c.radius, young, Vec3::Zero()});
   }
   world.state = {};
@@ -74,8 +55,7 @@ void place(const JudgedCells& cells, double time, const SphereLaw& law, coupling
 
 std::vector<SphereLaw> sphere_laws(const calibration::Law& law, double plain) {
   const cbm::StiffnessLaw table = calibration::stiffness_law(law);
-  cbm::StiffnessLaw stiff = table, fitted;
-  for (cbm::StiffnessLaw::Knot& k : stiff.table) k.added = std::max(0.0, law.a0 + k.added - plain);
+  cbm::StiffnessLaw fitted;
   fitted.term.push_back({law.a1, law.power});
   fitted.range = table.range;
   using enum OverlapMeasure;
@@ -83,9 +63,7 @@ std::vector<SphereLaw> sphere_laws(const calibration::Law& law, double plain) {
           {"Eq. (22), mean overlap", plain, cbm::paper_law(), kProgram},
           {"Eq. (22), a1 fitted", plain, fitted, kSum},
           {"table", law.a0, table, kProgram},
-          {"table alone", law.a0, table, kSum},
-          {"table alone, at least plain", plain, stiff, kSum},
-          {"table by contacts", law.a0, table, kByContacts}};
+          {"table alone", law.a0, table, kSum}};
 }
 
 JudgedCells compute_in_place(const JudgedCells& cells, double time, const SphereLaw& law,

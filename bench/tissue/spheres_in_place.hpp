@@ -25,9 +25,8 @@ using JudgedCells = std::map<std::int64_t, JudgedCell>;  ///< keyed by lineage
 
 /// Overlap measure that determines the modulus of a sphere.
 enum class OverlapMeasure {
-  kProgram,     ///< as in a run: sum over twelve, single deep overlaps, faces at walls
-  kSum,         ///< sum over twelve alone
-  kByContacts,  ///< sum times (n / 7)^0.1 with n contacts
+  kProgram,  ///< as in a run: sum over twelve, single deep overlaps, faces at walls
+  kSum,      ///< sum over twelve alone
 };
 
 /// Candidate law: modulus of a sphere over its overlaps.
