@@ -40,6 +40,20 @@ double overlap_of_pair(const std::vector<ClumpSnapshot>& snapshots) {
   return std::max(0.0, 1 - apart / (last.radius[0] + last.radius[1]));
 }
 
+/// Finds the overlap of two cells that adhere. Without adhesion, or where two cells cannot go on,
+/// it stays 0: the law then begins with the clump.
+/// @return exit code of a run that was stopped or failed, else 0
+int find_pair_overlap(const Clump& clump, const Runs& runs, Compression& cells) {
+  if (!(clump.sphere.adhesion > 0)) return 0;
+  const CompressionRun pair = runs.join_pair();
+  if (pair.exit == kCannotContinue)
+    runs.say("two cells by themselves could not come to rest: the law begins with the clump");
+  else if (pair.exit != 0)
+    return pair.exit;
+  if (!pair.snapshots.empty()) cells.pair_overlap = overlap_of_pair(pair.snapshots);
+  return 0;
+}
+
 /// Compresses spheres with the law until they carry the force of the cells in a capsule as wide, by
 /// increasing their recess at walls by the excess of the capsule each time.
 /// @return exit code of a run that was stopped or failed, else 0
@@ -119,12 +133,9 @@ Calibration calibrate(const Clump& clump, const Options& options, const Runs& ru
   found.contacts_last = deformable.central.back().contacts;
   found.overlap_at_rest = overlap_at_rest(deformable.central);
 
-  if (clump.sphere.adhesion > 0) {
-    const CompressionRun pair = runs.join_pair();
-    found.exit = pair.exit;
-    if (found.exit != 0) return found;
-    found.pair_overlap = cells.pair_overlap = overlap_of_pair(pair.snapshots);
-  }
+  found.exit = find_pair_overlap(clump, runs, cells);
+  if (found.exit != 0) return found;
+  found.pair_overlap = cells.pair_overlap;
   runs.say("fitting the law");
   found.attempts = fit_law(cells, clump.sphere, options.fit);
   found.law = make_law(clump, found.attempts.back());

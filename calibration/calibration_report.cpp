@@ -54,6 +54,8 @@ std::string calibration_table(const Calibration& c) {
   t += row("contacts of the central cell", fmt::format("{:.0f} at the start, {:.0f} compressed",
                                                        c.contacts_first, c.contacts_last));
   t += row("d of the central cell while nothing presses", fmt::format("{:.3f}", c.overlap_at_rest));
+  if (c.pair_overlap > 0)
+    t += row("overlap of two cells by themselves", fmt::format("{:.3f}", c.pair_overlap));
   for (const FitAttempt& a : c.attempts)
     t += row(fmt::format("error of {}", a.form),
              fmt::format("{:.1f} % rms of the force, {:.0f} % point by point",
