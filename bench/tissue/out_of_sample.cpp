@@ -132,6 +132,7 @@ double mean_of(const JudgedCells& cells, Get get) {
   return sum / static_cast<double>(std::max<std::size_t>(1, cells.size()));
 }
 
+/// Compares two series of frames, with errors as rms and with their signs.
 /// @param spheres  frames at the same times; single cells are compared where both have them
 BenchRow compare(const std::string& name, const std::vector<JudgedFrame>& deformable,
                  const std::vector<JudgedFrame>& spheres) {

@@ -102,11 +102,12 @@ Scene compression_scene(const Scene& scene, const ClumpOptions& options) {
 
 Scene pair_scene(const Scene& compression) {
   constexpr double kNearlyTouching = 0.995;  // of a radius from the plane between them
-  constexpr double kTimeToRest = 6 * 3600;   // s; 1 % of the overlap is left after a fifth of it
+  constexpr double kTimeToRest = 6 * 3600;   // s; the overlap is within 0.3 % after a third of it
   Scene s = compression;
   s.experiment = Experiment::kFree;
   s.capsule = {};
   s.cells.source = CellSource::kList;
+  s.cells.list.clear();
   for (const int side : {-1, 1}) {
     CellEntry cell;
     cell.position = {side * kNearlyTouching * s.cell_types.begin()->second.radius, 0, 0};
