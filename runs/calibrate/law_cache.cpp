@@ -67,10 +67,7 @@ Scene made_for_law(const Scene& scene) {
 
 /// Name of a law in the cache: a hash of all it depends on, to the last digit.
 std::string key_of(const Scene& scene, const LawParameters& p) {
-  std::string text = fmt::format("{}
-{}
-{}
-", calibration::kLawSchema, calibration::kLawMethod,
+  std::string text = fmt::format("{}\n{}\n{}\n", calibration::kLawSchema, calibration::kLawMethod,
                                  fmt::join(law_settings(scene.contact), " "));
   for (const auto* model : {&p.dcm, &p.cbm})
     for (const auto& [name, value] : *model) text += fmt::format("{} {:a}\n", name, value);
