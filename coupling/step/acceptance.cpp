@@ -239,7 +239,7 @@ std::optional<DeepContact> find_deep_contact(const World& world, const Workspace
   return *std::ranges::min_element(all, {}, &DeepContact::place);
 }
 
-/// Part of a displacement after which a contact or a face is looked at again.
+/// Part of a displacement after which contacts and faces are checked again.
 constexpr double kHalf = 0.5;
 /// Share of the largest displacement that a shortened step takes.
 constexpr double kWithin = 0.95;
