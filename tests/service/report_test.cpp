@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "io/disk.hpp"
 #include "io/run_file.hpp"
+#include "service/report/checks.hpp"
 #include "service/report/frames.hpp"
 #include "service/report/pack.hpp"
 #include "service/report/page.hpp"
@@ -176,6 +177,23 @@ TEST(Report, RefusesWhatItDoesNotKnow) {
   io::write_text_file(f.path + "/law.json", "{}");
   EXPECT_THROW(write_report({.what = {f.path + "/law.json"}, .out = f.path + "/a.html"}), Error);
   EXPECT_FALSE(fs::exists(f.path + "/a.html"));
+}
+
+TEST(Checks, JudgeOverlapsOfSpheresInTheirRadii) {
+  const auto failed = [](double pair, double vessel, int divisions) {
+    const nlohmann::ordered_json summary = {
+        {"max_overlap_cbm_um", pair},
+        {"overlap_of_spheres_um", {{"cbm_vessel", vessel}, {"radius", 12}}},
+        {"cells", {{"divisions", divisions}}}};
+    std::string names;
+    for (const auto& check : list_checks(summary))
+      if (!check["pass"].get<bool>()) names += check["name"].get<std::string>() + ";";
+    return names;
+  };
+  EXPECT_EQ(failed(5.9, 2.9, 0), "");
+  EXPECT_NE(failed(6.1, 2.9, 0).find("two spheres"), std::string::npos);
+  EXPECT_EQ(failed(6.1, 2.9, 3), "") << "sisters start deep in each other";
+  EXPECT_NE(failed(5.9, 3.1, 3).find("vessel"), std::string::npos);
 }
 
 }  // namespace
