@@ -155,17 +155,17 @@ void describe_cbm(Visitor& v, CbmBlock& b) {
           .symbol = "gamma_ECM+",
           .affects = Affects::kStep},
          b.medium_friction);
-  v.text(
-      {.name = "stiffness_correction",
-       .meaning = "law by which the modulus grows with the overlap: a file `acinus calibrate` "
-                  "wrote, relative to the scene's folder, or the name of a shipped law; auto: a "
-                  "shipped law of this cell type, else calibrate, once; paper: E + 4e6 Pa d^4 with the mean overlap d of the contacts, too stiff "
-                  "where cells have few neighbours",
-       .choices = "none|auto|paper",
-       .symbol = "E~",
-       .is_file = true,
-       .shipped = "laws"},
-      b.stiffness_correction);
+  v.text({.name = "stiffness_correction",
+          .meaning = "law by which the modulus grows with the overlap: a file `acinus calibrate` "
+                     "wrote, relative to the scene's folder, or the name of a shipped law; auto: a "
+                     "shipped law of this cell type, else calibrate, once; paper: E + 4e6 Pa d^4 "
+                     "with the mean overlap d of the contacts, too stiff "
+                     "where cells have few neighbours",
+          .choices = "none|auto|paper",
+          .symbol = "E~",
+          .is_file = true,
+          .shipped = "laws"},
+         b.stiffness_correction);
   v.flag({.name = "single_overlaps",
           .meaning = "with a law file: a neighbour pressed in deeper than the law was found for "
                      "stiffens the sphere toward it; false: only all overlaps together count"},

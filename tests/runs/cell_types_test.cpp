@@ -6,10 +6,10 @@
 
 #include <map>
 
-#include "runs/assemble/law_parameters.hpp"
 #include "runs/assemble/build_params.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/assemble/cell_constants.hpp"
+#include "runs/assemble/law_parameters.hpp"
 #include "runs/assemble/place_cells.hpp"
 #include "runs/experiments/read_scene.hpp"
 
