@@ -24,7 +24,7 @@ int list() {
       fmt::print("  {:20}  {}\n", study.name, study.description);
   }
   fmt::print("stiffness laws of spheres (cell_types.NAME.cbm.stiffness_correction)\n");
-  for (const std::string& file : runs::list_laws(runs::law_folder()))
+  for (const std::string& file : runs::shipped_laws())
     fmt::print("  {:20}  {}\n", std::filesystem::path(file).stem().string(),
                runs::describe_law(file));
   fmt::print("experiments (scene key experiment)\n");

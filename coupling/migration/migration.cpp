@@ -59,6 +59,11 @@ void sum_medium_friction(const World& world, const InterfaceInput& in, Workspace
 
 }  // namespace
 
+bool has_random_force(const World& world) {
+  return world.params.motility.random &&
+         controls_at(world.state.clock, world.params.start_up).motility;
+}
+
 Vec3 mean_random(std::uint64_t seed, std::int64_t lineage, double grid, double time, double step) {
   const auto first = static_cast<std::int64_t>(std::floor(time / grid));
   const double end = time + step;

@@ -10,6 +10,9 @@
 
 namespace acinus::coupling {
 
+/// True if cells feel a random force at present.
+bool has_random_force(const World& world);
+
 /// Mean of the unit random force over [time, time + step]. The force is constant on each interval
 /// of its time grid, so any sequence of steps over the same time gives the same impulse, also after
 /// rejected attempts.

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/parallel/threads.hpp"
+#include "coupling/migration/migration.hpp"
 #include "coupling/step/cell_sums.hpp"
 
 namespace acinus::coupling {
@@ -15,8 +16,7 @@ namespace {
 /// random motility the mean of every cell is left out: it is white noise, integrated exactly.
 /// @param field  [n_row][3][lane] um
 double error_norm(const World& world, const Workspace& w, std::span<const double> field) {
-  const bool noise = world.params.motility.random &&
-                     controls_at(world.state.clock, world.params.start_up).motility;
+  const bool noise = has_random_force(world);
   const CellSums<2> p =
       sum_over_cells<2>(w, true, [&](std::size_t, Address first, int n_point, CellSums<2>& part) {
         auto at = [&](int i) {

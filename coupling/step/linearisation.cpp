@@ -5,6 +5,7 @@
 #include "core/numbers/time_grid.hpp"
 #include "core/parallel/arrays.hpp"
 #include "core/parallel/threads.hpp"
+#include "coupling/migration/migration.hpp"
 #include "coupling/step/constrained_points.hpp"
 #include "coupling/step/move_points.hpp"
 #include "coupling/world/cell.hpp"
@@ -21,10 +22,9 @@ bool is_steady(const World& world) {
   // the resistance of a bulge, pressure and stretched triangles: extrapolated steps oscillate there
   // and others settle (docs/decisions/0035.md).
   if (s.cbm.n_cell() > 0 && s.clock.step < world.params.numerics.max_step) return false;
-  const Motility& m = world.params.motility;
-  if (!m.random || !controls_at(s.clock, world.params.start_up).motility) return true;
+  if (!has_random_force(world)) return true;
   const double now = s.clock.time - s.clock.origin;
-  return !crosses_grid(now - s.clock.last_step, now, m.grid);
+  return !crosses_grid(now - s.clock.last_step, now, world.params.motility.grid);
 }
 
 /// Displacements with the velocity of the last step: those of constrained cells, and on request all

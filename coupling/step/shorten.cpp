@@ -2,6 +2,7 @@
 
 #include "core/numbers/time_grid.hpp"
 #include "core/parallel/threads.hpp"
+#include "coupling/migration/migration.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -9,14 +10,12 @@ namespace {
 /// Largest number of assessments of one displacement: several cells may limit it.
 constexpr int kMostTries = 4;
 
-/// True if the random force is not constant over a step.
+/// True if the random force changes within a step.
 bool has_noise(const World& world, double step) {
-  const Motility& m = world.params.motility;
-  const Clock& clock = world.state.clock;
-  if (!m.random || !controls_at(clock, world.params.start_up).motility) return false;
-  const double now = clock.time - clock.origin;
+  if (!has_random_force(world)) return false;
+  const double now = world.state.clock.time - world.state.clock.origin;
   constexpr double kWithin = 1 - 1e-6;  // a step may end where the force changes
-  return crosses_grid(now, now + kWithin * step, m.grid);
+  return crosses_grid(now, now + kWithin * step, world.params.motility.grid);
 }
 
 bool can_shorten(const World& world, double step, const Workspace& w) {

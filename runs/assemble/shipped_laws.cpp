@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <system_error>
-
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
 #include "runs/assemble/law_parameters.hpp"
@@ -13,18 +9,7 @@
 
 namespace acinus::runs {
 
-namespace fs = std::filesystem;
-
-std::string law_folder() { return (fs::path(scene_folder()).parent_path() / "laws").string(); }
-
-std::vector<std::string> list_laws(const std::string& folder) {
-  std::vector<std::string> files;
-  std::error_code code;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
-    if (entry.path().extension() == ".json") files.push_back(entry.path().string());
-  std::ranges::sort(files);
-  return files;
-}
+std::vector<std::string> shipped_laws() { return shipped_files("laws"); }
 
 std::string describe_law(const std::string& file) {
   try {
@@ -49,7 +34,7 @@ std::string find_shipped_law(const Scene& scene, const CellType& type) {
   contact.quadrature = defaults.quadrature;
   if (law_settings(contact) != law_settings(defaults)) return "";
   const LawParameters here = law_parameters(scene, type);
-  for (const std::string& file : list_laws(law_folder())) {
+  for (const std::string& file : shipped_laws()) {
     const calibration::Law law = calibration::read_law(file);
     if (calibration::list_differences(law, here.dcm, here.cbm).empty()) return file;
   }

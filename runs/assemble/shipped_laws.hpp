@@ -9,11 +9,8 @@
 
 namespace acinus::runs {
 
-/// Folder of the shipped laws, beside that of the shipped scenes.
-std::string law_folder();
-
-/// Law files of a folder by name; empty without the folder.
-std::vector<std::string> list_laws(const std::string& folder);
+/// Files of the shipped laws, by name.
+std::vector<std::string> shipped_laws();
 
 /// Cells of a law in words, e.g. "cells of 12 um, 162 nodes, K_V = 2500 Pa, W = 1e-5 J/m^2"; the
 /// error if the file cannot be read.

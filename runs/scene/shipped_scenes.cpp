@@ -76,6 +76,16 @@ std::string scene_folder() {
               Exit::kFileError);
 }
 
+std::vector<std::string> shipped_files(const std::string& kind) {
+  std::vector<std::string> files;
+  std::error_code code;
+  const fs::path folder = fs::path(scene_folder()).parent_path() / kind;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
+    if (entry.path().extension() == ".json") files.push_back(entry.path().string());
+  std::ranges::sort(files);
+  return files;
+}
+
 std::vector<ShippedScene> shipped_scenes() { return list_documents(scene_folder()); }
 
 std::string find_document(const std::string& name, const std::string& kind,

@@ -17,6 +17,10 @@ struct ShippedScene {
 /// @throws Error (kFileError) if there is none.
 std::string scene_folder();
 
+/// Paths of the shipped JSON files of a kind, "laws" or "studies", by name: those of the folder of
+/// that name beside the scenes. Empty without the folder.
+std::vector<std::string> shipped_files(const std::string& kind);
+
 /// All JSON files of a folder by name, with the text of their key "description". One that cannot be
 /// parsed has its error as description.
 std::vector<ShippedScene> list_documents(const std::string& folder);

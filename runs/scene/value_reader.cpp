@@ -152,34 +152,6 @@ bool ValueReader::read_long(const Key& key, const Node& node, const std::string&
   return false;
 }
 
-namespace {
-
-fs::path shipped_folder(const Key& key) {
-  return fs::path(scene_folder()).parent_path() / key.shipped;
-}
-
-/// Shipped file of a name, for keys that have them; else empty.
-std::string find_shipped(const Key& key, const std::string& name) {
-  if (key.shipped[0] == 0 || name.find_first_of(std::string("./\0", 3)) != std::string::npos)
-    return "";
-  const fs::path path = shipped_folder(key) / (name + ".json");
-  std::error_code code;
-  return fs::is_regular_file(path, code) ? path.string() : "";
-}
-
-/// End of the message about a missing file: names of the shipped ones.
-std::string shipped_names(const Key& key) {
-  if (key.shipped[0] == 0) return "";
-  std::vector<std::string> names;
-  std::error_code code;
-  for (const fs::directory_entry& entry : fs::directory_iterator(shipped_folder(key), code))
-    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-  std::ranges::sort(names);
-  return fmt::format("; shipped {}: {}", key.shipped, fmt::join(names, ", "));
-}
-
-}  // namespace
-
 void ValueReader::read_file_name(const Key& key, const Node& node, const std::string& pointer,
                                  std::string& value) const {
   if (node.text.empty()) {
@@ -190,12 +162,22 @@ void ValueReader::read_file_name(const Key& key, const Node& node, const std::st
   std::string path = (fs::path(source.folder) / node.text).lexically_normal().string();
   std::error_code code;
   const bool is_file = node.text.find('\0') == std::string::npos && fs::is_regular_file(path, code);
-  const std::string shipped = is_file ? "" : find_shipped(key, node.text);
-  if (!is_file && shipped.empty()) {
-    report_.add_value(node, pointer, "no such file: " + pointer_path(path) + shipped_names(key));
-    return;
+  if (!is_file) {
+    std::vector<std::string> names;
+    if (key.shipped[0] != 0)
+      for (const std::string& shipped : shipped_files(key.shipped)) {
+        names.push_back(fs::path(shipped).stem().string());
+        if (names.back() == node.text) path = shipped;
+      }
+    if (std::ranges::count(names, node.text) == 0) {
+      report_.add_value(node, pointer,
+                        "no such file: " + pointer_path(path) +
+                            (names.empty() ? ""
+                                           : fmt::format("; shipped {}: {}", key.shipped,
+                                                         fmt::join(names, ", "))));
+      return;
+    }
   }
-  if (!is_file) path = shipped;
   value = path;
 }
 

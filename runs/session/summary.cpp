@@ -1,5 +1,4 @@
 #include "runs/session/summary.hpp"
-#include "runs/session/sphere_overlaps.hpp"
 
 #include <fmt/format.h>
 
@@ -14,6 +13,7 @@
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/experiments/figures.hpp"
+#include "runs/session/sphere_overlaps.hpp"
 
 namespace acinus::runs {
 namespace {

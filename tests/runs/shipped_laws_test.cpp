@@ -18,6 +18,8 @@
 namespace acinus::runs {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// Scene of spheres with the law "auto".
 Scene scene_with(const std::string& keys) {
   return parse_scene(
@@ -59,7 +61,7 @@ TEST(ShippedLaws, DoNotFitOtherCellsOrAnotherLawOfContact) {
 }
 
 TEST(ShippedLaws, AreSoundAndOfDifferentCells) {
-  const std::vector<std::string> laws = list_laws(law_folder());
+  const std::vector<std::string> laws = shipped_laws();
   ASSERT_GE(laws.size(), 3);
   for (const std::string& file : laws) {
     const calibration::Law law = calibration::read_law(file);
@@ -78,7 +80,7 @@ TEST(ShippedLaws, AreFoundByNameAndAMissingOneNamesThem) {
         R"("cell_types": {{ "a": {{ "cbm": {{ "stiffness_correction": "{}" }} }} }})", law));
   };
   EXPECT_EQ(named("hepatocyte_5e-5").cell_types.at("a").cbm.stiffness_correction,
-            law_folder() + "/hepatocyte_5e-5.json");
+            fs::path(scene_folder()).parent_path() / "laws" / "hepatocyte_5e-5.json");
   for (const char* wrong : {"hepatocyte_5", "../laws", "hepatocyte_5e-5.json"}) {
     try {
       EXPECT_EQ(named(wrong).cell_types.at("a").cbm.stiffness_correction, "");
