@@ -83,6 +83,36 @@ int fit_wall_recess(const Clump& clump, const Compression& cells, double highest
   }
 }
 
+/// Slides layers of cells of one model.
+/// @param slide  receives how far they slid; empty if they could not go on
+/// @return exit code of a run that was stopped or failed otherwise, else 0
+int slide_layers(const Runs& runs, ClumpModel model, const Law& law, Slide& slide) {
+  const SlidingRun run = runs.slide(model, law);
+  if (run.exit == 0) slide = run.slide;
+  return run.exit == kCannotContinue ? 0 : run.exit;
+}
+
+/// Finds the friction share from the distances that layers of deformable cells and of spheres with
+/// the same friction slide: as long as these stay in their hollows, they slide in inverse
+/// proportion to it. Layers that do not adhere come apart.
+/// @return exit code of a run that was stopped or failed, else 0
+int find_friction_share(const Clump& clump, const Runs& runs, Calibration& found) {
+  if (!(clump.sphere.adhesion > 0) || !(clump.cell_friction > 0)) return 0;
+  Law& law = found.law;
+  law.friction_share = 1;
+  int exit = slide_layers(runs, ClumpModel::kDeformable, law, found.slid_dcm);
+  if (exit == 0) exit = slide_layers(runs, ClumpModel::kCorrectedSpheres, law, found.slid_plain);
+  if (exit != 0) return exit;
+  const double cells = steady_slide(found.slid_dcm), spheres = steady_slide(found.slid_plain);
+  law.friction_share =
+      cells > 0 && spheres > 0 ? std::min(spheres / cells, kLargestFrictionShare) : 0;
+  if (law.friction_share == 0) {
+    runs.say("layers of these cells do not slide: spheres keep their own friction");
+    return 0;
+  }
+  return slide_layers(runs, ClumpModel::kCorrectedSpheres, law, found.slid_corrected);
+}
+
 void relax(const Options& options, const Runs& runs, Calibration& found) {
   const coupling::World world = runs.compressed_world();
   found.friction_before = world.params.dcm_contact.cell_friction;
@@ -141,6 +171,9 @@ Calibration calibrate(const Clump& clump, const Options& options, const Runs& ru
   found.law = make_law(clump, found.attempts.back());
   runs.say("compressing corrected spheres");
   found.exit = fit_wall_recess(clump, cells, options.fit.highest, runs, found);
+  if (found.exit != 0) return found;
+  runs.say("sliding layers of both");
+  found.exit = find_friction_share(clump, runs, found);
   if (found.exit != 0) return found;
   found.error_plain = relative_error(found.dcm, found.plain, options.fit.highest);
   found.error_corrected = relative_error(found.dcm, found.corrected, options.fit.highest);

@@ -9,6 +9,7 @@
 #include "calibration/clump_relaxation.hpp"
 #include "calibration/compression.hpp"
 #include "calibration/fit_law.hpp"
+#include "calibration/sliding.hpp"
 
 namespace acinus::calibration {
 
@@ -24,6 +25,7 @@ struct Options {
 struct Clump {
   cbm::Params sphere;                         ///< constants of the spheres; young is a0
   double radius = 0;                          ///< um, of a cell
+  double cell_friction = 0;                   ///< nN s/um^3, between deformable cells
   Vec3 center = Vec3::Zero();                 ///< um, of the capsule
   Parameters dcm, cbm;                        ///< for Law::dcm and Law::cbm
   std::map<std::string, std::string> origin;  ///< for Law::provenance
@@ -40,12 +42,20 @@ struct CompressionRun {
   std::vector<ClumpSample> central;  ///< the central cell in each snapshot
 };
 
+/// Two layers of cells of one model that slide past each other.
+struct SlidingRun {
+  int exit = 0;  ///< exit code of a run that was stopped or failed, else 0
+  Slide slide;
+};
+
 /// Simulations of a calibration. The caller keeps their folders, stops and resumes them.
 struct Runs {
   /// Compresses the clump. @param law  of corrected spheres; other models ignore it
   std::function<CompressionRun(ClumpModel model, const Law& law)> compress;
   /// Lets two deformable cells that touch come to rest. Their CompressionRun has no central cell.
   std::function<CompressionRun()> join_pair;
+  /// Slides two layers of cells past each other, as deformable cells or as spheres with the law.
+  std::function<SlidingRun(ClumpModel model, const Law& law)> slide;
   /// Deformable cells at the end of their compression.
   std::function<coupling::World()> compressed_world;
   std::function<void(const std::string& text)> say;  ///< reports progress
@@ -63,15 +73,18 @@ struct Calibration {
   double contacts_first = 0, contacts_last = 0;  ///< of the central deformable cell
   double overlap_at_rest = 0;                    ///< its d without load
   double pair_overlap = 0;                       ///< Compression::pair_overlap
-  std::vector<Relaxation> relaxation;            ///< Table 1, all friction x 5 (empty: not asked)
-  FrictionFit friction;        ///< fit to Options::relaxation_time; 0: not asked for
-  double friction_before = 0;  ///< nN s/um^3
-  FrictionFit checked;         ///< relaxation with Options::check_friction
+  /// Layers of deformable cells, of spheres with the same friction per area, and of spheres with
+  /// the law's; empty: not slid.
+  Slide slid_dcm, slid_plain, slid_corrected;
+  std::vector<Relaxation> relaxation;  ///< Table 1, all friction x 5 (empty: not asked)
+  FrictionFit friction;                ///< fit to Options::relaxation_time; 0: not asked for
+  double friction_before = 0;          ///< nN s/um^3
+  FrictionFit checked;                 ///< relaxation with Options::check_friction
 };
 
 /// Calibrates the law: compresses the clump as deformable cells and as spheres, lets two of the
-/// cells adhere, fits, compresses the corrected spheres until their capsule is as wide, lets the
-/// deformable ones relax.
+/// cells adhere, fits, compresses the corrected spheres until their capsule is as wide, slides
+/// layers of both models, lets the deformable clump relax.
 /// @throws Error(kCannotContinue) where the compression gives too little data or no law fits
 Calibration calibrate(const Clump& clump, const Options& options, const Runs& runs);
 

@@ -24,6 +24,8 @@ io::PlotLine line(const std::string& name, const std::vector<double>& x,
 
 Json json_of(const ForceCurve& c) { return {{"overlap", c.overlap}, {"force_nN", c.force}}; }
 
+Json json_of(const Slide& s) { return {{"time_s", s.time}, {"slid_um", s.slid}}; }
+
 Json json_of(const Relaxation& r) {
   const Recovery back = measure_recovery(r.time, r.overlap);
   return {{"time_s", r.time},
@@ -79,6 +81,12 @@ std::string calibration_table(const Calibration& c) {
                        100 * c.error_plain));
   t += row("corrected spheres compressed by themselves",
            fmt::format("{:.1f} %", 100 * c.error_corrected));
+  if (c.law.friction_share > 0)
+    t += row("friction per area between spheres",
+             fmt::format("{:.3f} of that of deformable cells: two layers then slide {:.2f} um, "
+                         "where those slide {:.2f} um",
+                         c.law.friction_share, steady_slide(c.slid_corrected),
+                         steady_slide(c.slid_dcm)));
   t += row("fit for other scenes", c.law.warnings.empty() ? "yes" : "no, see the warnings");
   t += row(
       "at walls they leave out",
@@ -116,6 +124,12 @@ void write_curves(const Calibration& c, const std::string& folder) {
   j["warnings"] = c.law.warnings;
   j["wall_recess"] = c.law.wall_recess;
   j["capsule_excess_um"] = c.capsule_excess;
+  if (c.law.friction_share > 0) {
+    j["friction_share"] = c.law.friction_share;
+    j["slid_dcm"] = json_of(c.slid_dcm);
+    j["slid_cbm_equal_friction"] = json_of(c.slid_plain);
+    j["slid_cbm_corrected"] = json_of(c.slid_corrected);
+  }
   j["forms"] = Json::array();
   for (const FitAttempt& a : c.attempts)
     j["forms"].push_back({{"form", a.form},
@@ -141,6 +155,17 @@ void write_curves(const Calibration& c, const std::string& folder) {
                   {line("deformable cells", c.dcm.overlap, c.dcm.force),
                    line("spheres, JKR", c.plain.overlap, c.plain.force),
                    line("spheres, corrected", c.corrected.overlap, c.corrected.force)}});
+  if (c.law.friction_share > 0)
+    io::write_plot(
+        folder + "/sliding.svg",
+        {"Two layers under shear",
+         "time, h",
+         "distance slid, um",
+         false,
+         false,
+         {line("deformable cells", c.slid_dcm.time, c.slid_dcm.slid, 3600),
+          line("spheres, same friction", c.slid_plain.time, c.slid_plain.slid, 3600),
+          line("spheres, corrected", c.slid_corrected.time, c.slid_corrected.slid, 3600)}});
   if (c.relaxation.empty()) return;
   std::vector<io::PlotLine> lines{
       line("friction of the scene", c.relaxation[0].time, c.relaxation[0].overlap, 3600),

@@ -109,12 +109,12 @@ void scale_all_friction(coupling::Params& params, double factor) {
     p.viscosity *= factor;
   }
   for (cbm::Params& p : params.cbm) {
+    p.cell_friction *= factor;
     p.medium_friction *= factor;
     p.vessel_friction *= factor;
     p.viscosity *= factor;
   }
   params.dcm_contact.cell_friction *= factor;
-  params.cbm_contact.cell_friction *= factor;
   params.interface.friction *= factor;
 }
 

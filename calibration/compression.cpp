@@ -95,7 +95,7 @@ ClumpSnapshot as_spheres(const ClumpSnapshot& snapshot, const cbm::Params& spher
   coupling::World world;
   world.params.cbm = {sphere, sphere};
   world.params.cbm[1].correction = {};
-  world.params.cbm_contact.cell_friction = 0;
+  for (cbm::Params& p : world.params.cbm) p.cell_friction = 0;
   world.params.motility.random = false;
   world.state.cbm = cbm::make_state(cells);
   coupling::Workspace work;

@@ -27,6 +27,9 @@ struct Law {
   std::array<double, 2> a1_interval{};    ///< kPa, 95 % confidence
   std::array<double, 2> overlap_range{};  ///< range of d in the fit
   double wall_recess = 0;                 ///< cbm::StiffnessLaw::wall_recess
+  /// Friction per area of contact between spheres, over that between deformable cells, with which
+  /// layers of both slide alike (sliding.hpp). 0: not measured.
+  double friction_share = 0;
   double r_squared = 0;
   double rms_relative = 0;  ///< of the force, over the range
   double jkr_underestimation =
@@ -35,6 +38,9 @@ struct Law {
   std::vector<std::string> warnings;  ///< objections to its use (reliability.hpp)
   std::map<std::string, std::string> provenance;
 };
+
+/// Largest friction share of a law.
+inline constexpr double kLargestFrictionShare = 10;
 
 /// Stiffness law for the contact of spheres.
 cbm::StiffnessLaw stiffness_law(const Law& law);

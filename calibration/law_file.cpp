@@ -33,6 +33,7 @@ Json numbers_of(const Law& law) {
   j["a1_interval_kPa"] = law.a1_interval;
   j["overlap_range"] = law.overlap_range;
   j["wall_recess"] = law.wall_recess;
+  j["friction_share"] = law.friction_share;
   j["r_squared"] = law.r_squared;
   j["rms_relative"] = law.rms_relative;
   j["jkr_underestimation"] = law.jkr_underestimation;
@@ -177,6 +178,7 @@ Law read_law(const std::string& path) {
   check(law.table.empty() || law.overlap_range[1] == law.table.back().overlap,
         path + "/overlap_range: the table ends elsewhere");
   law.wall_recess = r.number("wall_recess", 0, cbm::kLargestRecess);
+  law.friction_share = r.number("friction_share", 0, kLargestFrictionShare);
   law.r_squared = r.number("r_squared", -Reader::kAny, 1);
   law.rms_relative = r.number("rms_relative", 0);
   law.jkr_underestimation = r.number("jkr_underestimation", 0);

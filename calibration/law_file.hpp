@@ -7,10 +7,10 @@
 
 namespace acinus::calibration {
 
-inline constexpr int kLawSchema = 3;
+inline constexpr int kLawSchema = 4;
 
 /// Number of the way in which laws are found. Laws kept from another way are found anew.
-inline constexpr int kLawMethod = 2;
+inline constexpr int kLawMethod = 3;
 
 /// Law as JSON text. Throws Error when a number is not finite: no NaN ever reaches a file.
 std::string law_text(const Law& law);

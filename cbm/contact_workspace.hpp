@@ -18,7 +18,6 @@ namespace acinus::cbm {
 
 struct ContactParams {
   double skin = 0.3;           ///< um
-  double cell_friction = 10;   ///< nN s/um^3, cell-cell
   double adhesion_factor = 1;  ///< ramps up after start-up
   double friction_factor = 1;  ///< 0 while cells grow to size
 };
@@ -56,6 +55,7 @@ struct ContactWorkspace {
   std::vector<std::pair<int, int>> touching;  ///< new touching set, committed with an accepted step
   std::vector<std::vector<std::pair<int, int>>> touching_part;  ///< of other threads than the first
   std::vector<TypeFactors> type_factors;  ///< [type]; written by: find_contacts
+  std::vector<double> type_friction;      ///< [type][type] nN s/um^3; written by: find_contacts
   std::vector<double> contact_area;       ///< [n_cell] um^2, sum over all contacts
   /// [n_cell] sum of the relative overlaps with cells and walls, without vessels and meshes;
   /// written by: compute_overlaps; the DCM-CBM interface adds its own. Empty: no law needs it.

@@ -54,11 +54,17 @@ void weaken(const double (&share)[kLanes], Batch& p) {
   }
 }
 
-void compute_type_factors(std::span<const Params> params, double adhesion_factor,
-                          std::vector<TypeFactors>& factors) {
-  factors.clear();
-  for (const Params& p : params)
-    factors.push_back({1 - p.poisson * p.poisson, std::sqrt(adhesion_factor * p.adhesion)});
+void compute_type_factors(std::span<const Params> params, const ContactParams& options,
+                          ContactWorkspace& work) {
+  work.type_factors.clear();
+  work.type_friction.clear();
+  for (const Params& p : params) {
+    work.type_factors.push_back(
+        {1 - p.poisson * p.poisson, std::sqrt(options.adhesion_factor * p.adhesion)});
+    for (const Params& q : params)
+      work.type_friction.push_back(options.friction_factor *
+                                   std::sqrt(p.cell_friction * q.cell_friction));
+  }
 }
 
 FaceModulus face_toward(const ContactInput& in, const ContactWorkspace& work, std::size_t cell,
@@ -104,6 +110,7 @@ class PairBatch {
     const TypeFactors &of_ta = work_.type_factors[ta], &of_tb = work_.type_factors[tb];
     value.compliance[n_] = of_ta.softness / of_a->value + of_tb.softness / of_b->value;
     value.adhesion[n_] = of_ta.root_adhesion * of_tb.root_adhesion;
+    friction_[n_] = work_.type_friction[ta * work_.type_factors.size() + tb];
     value.was_touching[n_] = was_touching({a, b}) ? 1 : 0;
     return ++n_ == kLanes;
   }
@@ -135,6 +142,9 @@ class PairBatch {
                           softness / (value.compliance[l] * m.value * m.value);
     return by_own * m.slope / (value.radius_a[l] + value.radius_b[l]);
   }
+
+  /// Friction of pair l of the batch, nN s/um.
+  double friction(std::size_t l) const { return friction_[l] * value.area[l]; }
 
   Batch value{};
   std::array<std::array<FaceModulus, 2>, kLanes> face{};  ///< of both sides, if a law corrects
@@ -175,7 +185,8 @@ class PairBatch {
   const State& s_;
   const CellData& cells_;
   const ContactWorkspace& work_;
-  double share_[kLanes] = {};  ///< used only when not all strengths are 1
+  double friction_[kLanes] = {};  ///< nN s/um^3
+  double share_[kLanes] = {};     ///< used only when not all strengths are 1
   std::size_t n_ = 0, cursor_ = kUnset;
 };
 
@@ -185,8 +196,7 @@ class RangeSearch {
   RangeSearch(const ContactInput& in, std::pair<std::size_t, std::size_t> range,
               ContactWorkspace& work, std::vector<solve::PointLink>& link,
               std::vector<std::pair<int, int>>& touching)
-      : friction_(in.options.friction_factor * in.options.cell_friction),
-        first_row_(in.first_row),
+      : first_row_(in.first_row),
         first_(static_cast<int>(range.first)),
         last_(static_cast<int>(range.second)),
         work_(work),
@@ -265,10 +275,9 @@ class RangeSearch {
     for (std::size_t m = 0; m < 3; ++m)
       link.normal[m] = static_cast<float>(batch_.value.normal[m][l]);
     link.stiffness = static_cast<float>(batch_.value.stiffness[l]);
-    link.friction = static_cast<float>(friction_ * batch_.value.area[l]);
+    link.friction = static_cast<float>(batch_.friction(l));
   }
 
-  double friction_;
   std::size_t first_row_;
   int first_, last_;
   ContactWorkspace& work_;
@@ -278,13 +287,12 @@ class RangeSearch {
 };
 
 /// Record of pair l of an evaluated batch.
-contact::Contact record_of(const PairBatch& batch, std::size_t l, std::pair<int, int> pair,
-                           double friction) {
+contact::Contact record_of(const PairBatch& batch, std::size_t l, std::pair<int, int> pair) {
   const Batch& v = batch.value;
   return {.a = pair.first,
           .b = pair.second,
           .partner = contact::Partner::kSphere,
-          .friction = static_cast<float>(friction * v.area[l]),
+          .friction = static_cast<float>(batch.friction(l)),
           .normal = Vec3(v.normal[0][l], v.normal[1][l], v.normal[2][l]),
           .gap = -v.overlap[l],
           .touching = v.area[l],
@@ -300,7 +308,7 @@ void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
   work.force.resize(in.state.position.size());
   link.resize(work.pair.size());
   work.contact_area.resize(n);
-  compute_type_factors(in.params, in.options.adhesion_factor, work.type_factors);
+  compute_type_factors(in.params, in.options, work);
   const std::size_t n_part = n > kParallelCells ? static_cast<std::size_t>(thread_count()) : 1;
   work.touching_part.resize(n_part - 1);
   for_each_part(n_part, [&](std::size_t k) {
@@ -318,13 +326,12 @@ void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
 void list_pairs(const ContactInput& in, const ContactWorkspace& work,
                 contact::ContactList& contacts) {
   contacts.all.resize(contacts.first(contact::ContactKind::kSphere));
-  const double friction = in.options.friction_factor * in.options.cell_friction;
   PairBatch batch(in, work);
   const auto flush = [&] {
     if (batch.size() == 0) return;
     batch.evaluate_all();
     for (std::size_t l = 0; l < batch.size(); ++l)
-      contacts.all.push_back(record_of(batch, l, work.pair[batch.index[l]], friction));
+      contacts.all.push_back(record_of(batch, l, work.pair[batch.index[l]]));
     batch.clear();
   };
   std::size_t k = 0;

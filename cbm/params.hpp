@@ -20,6 +20,7 @@ struct Params {
   double young = young_from_bulk(2.5, 0.47);  ///< kPa, mean over cells
   double young_spread = 0.1;                  ///< relative standard deviation from cell to cell
   double poisson = 0.47;
+  double cell_friction = 10;  ///< nN s/um^3, with another sphere; of two types the geometric mean
   double medium_friction = 0.5;  ///< nN s/um^3, gamma_ECM; used unless viscosity > 0
   double viscosity = 0;          ///< nN s/um^2, Stokes drag 6 pi eta R
   bool whole_medium_area =

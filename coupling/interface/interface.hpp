@@ -26,8 +26,7 @@ inline double mean_friction(double dcm, double cbm) {
 
 struct InterfaceParams {
   /// nN s/um^3, DCM-CBM; by default the harmonic mean of those within the models.
-  double friction =
-      mean_friction(dcm::ContactParams{}.cell_friction, cbm::ContactParams{}.cell_friction);
+  double friction = mean_friction(dcm::ContactParams{}.cell_friction, cbm::Params{}.cell_friction);
   double friction_factor = 1;  ///< 0 while cells grow to size
 };
 

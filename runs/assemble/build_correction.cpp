@@ -53,6 +53,13 @@ void build_corrections(const Scene& scene, std::vector<cbm::Params>& params, Not
                       "these cells, or set stiffness_correction to \"auto\"",
                       file, name, fmt::join(differences, "; ")));
     p.young = law.a0;
+    if (!scene.friction.cbm_cbm && law.friction_share > 0) {
+      p.cell_friction = law.friction_share * scene.contact.cell_friction;
+      notes.info.push_back(
+          fmt::format("{}: friction between spheres {:.3g} N s/m^3, {:.3g} of that "
+                      "between deformable cells",
+                      name, 1e9 * p.cell_friction, law.friction_share));
+    }
     p.correction = calibration::stiffness_law(law);
     p.correction.single_overlaps = type.cbm.single_overlaps;
   }

@@ -23,9 +23,8 @@ void set_contact(const Scene& scene, coupling::Params& p) {
   if (p.dcm_contact.range_factor == 0)
     p.dcm_contact.range_factor = default_range(scene.contact.quadrature);
   p.cbm_contact.skin = scene.contact.skin;
-  p.cbm_contact.cell_friction = scene.friction.cbm_cbm;
-  p.interface.friction = scene.friction.dcm_cbm.value_or(
-      coupling::mean_friction(scene.contact.cell_friction, scene.friction.cbm_cbm));
+  p.interface.friction = scene.friction.dcm_cbm.value_or(coupling::mean_friction(
+      scene.contact.cell_friction, scene.friction.cbm_cbm.value_or(cbm::Params{}.cell_friction)));
 }
 
 void set_motility(const Scene& scene, coupling::Motility& m) {
@@ -75,6 +74,7 @@ dcm::Params make_dcm_params(const Scene& scene, const CellType& type) {
 cbm::Params make_cbm_params(const Scene& scene, const CellType& type) {
   cbm::Params p = type.cbm;
   if (p.young == 0) p.young = cbm::young_from_bulk(type.dcm.bulk_modulus, p.poisson);
+  p.cell_friction = scene.friction.cbm_cbm.value_or(p.cell_friction);
   p.viscosity = scene.friction.liquid ? scene.friction.viscosity : 0;
   p.whole_medium_area = scene.contact.whole_medium_area;
   p.diffusion = type.diffusion;

@@ -69,6 +69,21 @@ std::vector<calibration::ClumpSample> read_central(const RunSummary& run) {
   return out;
 }
 
+/// Reads how far two layers have slid in every frame.
+calibration::Slide read_slide(const std::string& folder) {
+  const io::RunReader reader(folder + "/run.vtkhdf");
+  calibration::Slide out;
+  std::vector<Vec3> first;
+  for (int k = 0; k < reader.n_frame(); ++k) {
+    const calibration::ClumpSnapshot now = read_snapshot(reader, k, folder);
+    if (k == 0) first = now.center;
+    out.time.push_back(reader.time_s(k));
+    out.slid.push_back(calibration::offset_of_layers(first, now.center) -
+                       calibration::offset_of_layers(first, first));
+  }
+  return out;
+}
+
 /// Run folders of one calibration.
 class Folders {
  public:
@@ -87,6 +102,8 @@ class Folders {
     return {.compress = [this](ClumpModel model,
                                const calibration::Law& law) { return compress(model, law); },
             .join_pair = [this] { return join_pair(); },
+            .slide = [this](ClumpModel model,
+                            const calibration::Law& law) { return slide(model, law); },
             .compressed_world = [this] { return compressed_world(); },
             .say = [this](const std::string& text) { say(text); }};
   }
@@ -108,13 +125,17 @@ class Folders {
       return run(as_spheres(compression_, "none"), "compression_cbm",
                  {.quiet = true, .fresh = options_.fresh, .whole = true});
     }
-    // The clump's surfaces may be stiffer than those of the cells that the law is for.
-    calibration::Law of_clump = law;
-    of_clump.dcm = law_parameters(compression_, compression_.cell_types.begin()->second).dcm;
-    calibration::write_law(of_clump, path("law.json"));
+    write_law_of_clump(law);
     // Another law may stand in the file of an earlier attempt.
     return run(as_spheres(compression_, path("law.json")), "compression_corrected",
                {.quiet = true, .fresh = true});
+  }
+
+  /// Writes the law as one for the clump, whose surfaces may be stiffer than those of the cells
+  /// that the law is for.
+  void write_law_of_clump(calibration::Law law) const {
+    law.dcm = law_parameters(compression_, compression_.cell_types.begin()->second).dcm;
+    calibration::write_law(law, path("law.json"));
   }
 
   CompressionRun run(const Scene& scene, const char* name, const How& how) const {
@@ -137,6 +158,21 @@ class Folders {
     if (out.exit != 0) return out;
     const io::RunReader reader(path(kPair) + "/run.vtkhdf");
     out.snapshots.push_back(read_snapshot(reader, reader.n_frame() - 1, path(kPair)));
+    return out;
+  }
+
+  calibration::SlidingRun slide(ClumpModel model, const calibration::Law& law) const {
+    Scene scene = sliding_scene(compression_);
+    const bool deformable = model == ClumpModel::kDeformable;
+    if (!deformable) {
+      write_law_of_clump(law);
+      scene = as_spheres(scene, path("law.json"));
+    }
+    const std::string folder = path(deformable ? "sliding_dcm" : "sliding_corrected");
+    calibration::SlidingRun out;
+    out.exit = run_stage(scene, {folder, options_.threads, true, options_.fresh || !deformable,
+                                 options_.command_line});
+    if (out.exit == 0) out.slide = read_slide(folder);
     return out;
   }
 
@@ -167,6 +203,7 @@ calibration::Clump clump_of(const Scene& scene, const Scene& compression,
   const CellType& compressed = compression.cell_types.at(type);
   return {make_cbm_params(compression, compressed),
           compressed.radius,
+          compression.contact.cell_friction,
           compression.capsule.center,
           parameters.dcm,
           parameters.cbm,

@@ -119,6 +119,52 @@ Scene pair_scene(const Scene& compression) {
   return s;
 }
 
+Scene sliding_scene(const Scene& compression) {
+  constexpr int kAlong = 4, kAcross = 3;
+  // Hexagonal layers at the distances of cells that adhere, over the radius.
+  constexpr double kSpacing = 1.79, kHeight = 3.08;
+  constexpr double kPull = 2e-3;         // kPa, force of a cell over its squared radius
+  constexpr double kUsualFriction = 50;  // nN s/um^3, with which the times below go
+  constexpr double kEnd = 6 * 3600, kEvery = 1800, kStep = 60;  // s
+  Scene s = compression;
+  CellType& type = s.cell_types.begin()->second;
+  type.cbm.medium_friction = type.dcm.medium_friction;
+  s.friction.cbm_cbm.reset();
+  s.friction.cbm_vessel = s.friction.dcm_vessel;
+  s.experiment = Experiment::kFree;
+  s.capsule = {};
+  s.start_up = {};
+  s.start_up.enabled = true;
+  s.cells.source = CellSource::kList;
+  s.cells.list.clear();
+  const double spacing = kSpacing * type.radius, row = spacing * std::sqrt(3) / 2;
+  for (const int side : {-1, 1})
+    for (int j = 0; j < kAcross; ++j)
+      for (int i = 0; i < kAlong; ++i) {
+        CellEntry cell;
+        const double shift = 0.5 * (j % 2) + (side > 0 ? 0.5 : 0);
+        cell.position = {(i + shift) * spacing, (j + (side > 0 ? 1.0 / 3 : 0)) * row,
+                         side * kHeight / 4 * type.radius};
+        cell.pull = {side * kPull * type.radius * type.radius, 0, 0};
+        s.cells.list.push_back(cell);
+      }
+  s.walls.clear();
+  for (const int side : {-1, 1}) {
+    WallEntry wall;
+    wall.mirror = true;
+    wall.name = side < 0 ? "lower" : "upper";
+    wall.point = {0, 0, side * kHeight / 2 * type.radius};
+    wall.normal = {0, 0, static_cast<double>(-side)};
+    s.walls.push_back(wall);
+  }
+  const double slower = s.contact.cell_friction / kUsualFriction;
+  s.time.end = slower * kEnd;
+  s.output.every = slower * kEvery;
+  s.numerics.max_step = slower * kStep;
+  set_canonical(s);
+  return s;
+}
+
 Scene as_spheres(const Scene& compression, const std::string& law_file) {
   Scene s = compression;
   s.model = s.cells.model = CellModel::kCbm;

@@ -27,7 +27,11 @@ Scene compression_scene(const Scene& scene, const ClumpOptions& options);
 /// Scene of two of its cells that touch and adhere, for as long as they take to come to rest.
 Scene pair_scene(const Scene& compression);
 
-/// Scene of the same clump as spheres of one modulus.
+/// Scene of two layers of twelve of its cells between mirror walls, pulled past each other with a
+/// shear stress of some 2 Pa, that of the pull of a cell that leads others.
+Scene sliding_scene(const Scene& compression);
+
+/// Scene of the same cells as spheres of one modulus.
 /// @param law_file  stiffness law, or "none"
 Scene as_spheres(const Scene& compression, const std::string& law_file);
 

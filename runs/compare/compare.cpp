@@ -383,7 +383,7 @@ int run_models(const Scene& scene, const CompareScenes& options,
       if (options.equal_drag) type.cbm.medium_friction = type.dcm.medium_friction;
     }
     if (options.equal_drag) {
-      s.friction.cbm_cbm = s.contact.cell_friction;
+      if (!m.corrected) s.friction.cbm_cbm = s.contact.cell_friction;
       s.friction.cbm_vessel = s.friction.dcm_vessel;
     }
     set_canonical(s);

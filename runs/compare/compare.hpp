@@ -26,7 +26,7 @@ struct Difference {
 struct Drag {
   CellModel model = CellModel::kDcm;
   double medium = 0;         ///< of a free cell with the medium, 4 pi R^2 gamma, nN s/um
-  double cell_friction = 0;  ///< between cells, nN s/um^3
+  double cell_friction = 0;  ///< between cells, nN s/um^3; NaN: that of the law of the spheres
 };
 
 /// Time series of a quantity in every run.

@@ -45,6 +45,10 @@ std::set<std::string> reasons_of(const Comparison& c) {
   return reasons;
 }
 
+std::string show_friction(double friction) {
+  return std::isnan(friction) ? "by the law" : fmt::format("{:.4g} N s/m^3", 1e9 * friction);
+}
+
 }  // namespace
 
 std::string comparison_table(const Comparison& c) {
@@ -52,9 +56,8 @@ std::string comparison_table(const Comparison& c) {
                               c.from / 3600, c.to / 3600, c.runs[0]);
   for (std::size_t r = 0; r < c.runs.size(); ++r)
     for (const Drag& d : c.drag[r])
-      t +=
-          fmt::format("drag in {}: {} {:.4g} nN s/um per free cell, {:.4g} N s/m^3 between cells\n",
-                      c.runs[r], name_of_choice(d.model), d.medium, 1e9 * d.cell_friction);
+      t += fmt::format("drag in {}: {} {:.4g} nN s/um per free cell, {} between cells\n", c.runs[r],
+                       name_of_choice(d.model), d.medium, show_friction(d.cell_friction));
   for (std::size_t r = 0; r < c.difference.size(); ++r) {
     t += fmt::format("\n{}\n  {:14} {:>12} {:>12} {:7} {:>12}  {}\n", c.runs[r + 1], "quantity",
                      "reference", "here", "unit", "difference", "verdict");

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -17,6 +18,15 @@ double quantity(const Json& j, Dimension dimension) {
   return parse_quantity(j.get<std::string>(), dimension);
 }
 
+/// Friction between cells of one model, nN s/um^3; NaN where the law of the spheres sets it.
+double cell_friction(const Json& scene, const Json& type, CellModel model) {
+  const std::string name = name_of_choice(model);
+  const Json& pair = scene.at("friction").at(fmt::format("{0}_{0}", name));
+  if (pair != "auto") return quantity(pair, kFrictionPerArea);
+  const bool has_law = type.at("cbm").at("stiffness_correction") != "none";
+  return has_law ? std::numeric_limits<double>::quiet_NaN() : cbm::Params{}.cell_friction;
+}
+
 }  // namespace
 
 std::vector<Drag> drag_of(const std::string& resolved_scene, bool has_dcm, bool has_cbm) try {
@@ -26,9 +36,9 @@ std::vector<Drag> drag_of(const std::string& resolved_scene, bool has_dcm, bool 
   const double radius = quantity(type.at("radius"), kLength), surface = 4 * kPi * radius * radius;
   for (const CellModel model : {CellModel::kDcm, CellModel::kCbm}) {
     if (!(model == CellModel::kDcm ? has_dcm : has_cbm)) continue;
-    const std::string name = name_of_choice(model), pair = fmt::format("{0}_{0}", name);
-    out.push_back({model, surface * quantity(type.at(name).at("ecm_friction"), kFrictionPerArea),
-                   quantity(j.at("friction").at(pair), kFrictionPerArea)});
+    const Json& medium = type.at(name_of_choice(model)).at("ecm_friction");
+    out.push_back(
+        {model, surface * quantity(medium, kFrictionPerArea), cell_friction(j, type, model)});
   }
   return out;
 } catch (const Json::exception&) {

@@ -12,14 +12,16 @@ void describe_friction_of_contacts(Visitor& v, Scene& s) {
           .range = kNotNegative,
           .symbol = "gamma_ext+"},
          s.contact.cell_friction);
-  v.real({.name = "cbm_cbm",
-          .meaning = "friction between two CBM cells, per contact area",
-          .dimension = kFrictionPerArea,
-          .unit = "N s/m^3",
-          .range = kNotNegative,
-          .symbol = "gamma_ext+",
-          .compared = false},
-         b.cbm_cbm);
+  v.optional_real({.name = "cbm_cbm",
+                   .meaning = "friction between two CBM cells, per contact area",
+                   .dimension = kFrictionPerArea,
+                   .unit = "N s/m^3",
+                   .range = kNotNegative,
+                   .symbol = "gamma_ext+",
+                   .automatic = "1e10 N s/m^3; with a calibrated law the share of dcm_dcm with "
+                                "which layers of both models slide alike",
+                   .compared = false},
+                  b.cbm_cbm);
   v.optional_real({.name = "dcm_cbm",
                    .meaning = "friction between a DCM and a CBM cell",
                    .dimension = kFrictionPerArea,

@@ -75,13 +75,13 @@ struct ContactBlock : dcm::ContactParams {
   ContactBlock() { range_factor = 0; }
 };
 
-struct FrictionBlock {  ///< friction but that between deformable cells, see ContactBlock
-  double cbm_cbm = cbm::ContactParams{}.cell_friction;  ///< nN s/um^3
-  std::optional<double> dcm_cbm;                        ///< empty = harmonic mean of the two
-  std::optional<double> dcm_vessel;                     ///< empty = the type's dcm ecm_friction
-  std::optional<double> cbm_vessel;                     ///< empty = the type's cbm ecm_friction
-  bool liquid = false;      ///< Stokes drag instead of friction per area
-  double viscosity = 1e-6;  ///< nN s/um^2 (1e-3 Pa s)
+struct FrictionBlock {            ///< friction but that between deformable cells, see ContactBlock
+  std::optional<double> cbm_cbm;  ///< nN s/um^3; empty = by the law, else cbm::Params
+  std::optional<double> dcm_cbm;  ///< empty = harmonic mean of the two
+  std::optional<double> dcm_vessel;  ///< empty = the type's dcm ecm_friction
+  std::optional<double> cbm_vessel;  ///< empty = the type's cbm ecm_friction
+  bool liquid = false;               ///< Stokes drag instead of friction per area
+  double viscosity = 1e-6;           ///< nN s/um^2 (1e-3 Pa s)
 };
 
 /// Active forces. leader_slice = 0: the cell diameter.

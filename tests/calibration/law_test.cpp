@@ -22,6 +22,7 @@ Law make_law() {
   law.a1_interval = {1200, 1500};
   law.overlap_range = {0.03, 0.19};
   law.wall_recess = 0.125;
+  law.friction_share = 0.225;
   law.r_squared = 0.998;
   law.rms_relative = 0.06;
   law.jkr_underestimation = 5.5;
@@ -79,7 +80,7 @@ TEST_F(LawFile, BadOnesAreRefusedWithTheReason) {
     EXPECT_CONTAINS(m, reason) << from << " -> " << to;
     EXPECT_CONTAINS(m, "law.json");
   };
-  expect("\"schema_version\": 3", "\"schema_version\": 7", "another version");
+  expect("\"schema_version\": 4", "\"schema_version\": 7", "another version");
   expect("0.45", "NaN", "not JSON");
   expect("0.45", "1e999", "too large");
   expect("\"power\"", "\"colour\": 1, \"power\"", "unknown key \"colour\"");
@@ -90,6 +91,7 @@ TEST_F(LawFile, BadOnesAreRefusedWithTheReason) {
   expect("0.19", "0.7", "not allowed");
   expect("\"a1_kPa\"", "\"a_kPa\"", "missing");
   expect("0.125", "0.6", "not allowed");
+  expect("0.225", "-0.225", "not allowed");
   expect("0.125", "0.126", "changed by hand");
   expect("2.5", "2.6", "changed by hand");
   expect("{", "", "not JSON");

@@ -66,6 +66,21 @@ TEST(SpherePairs, ForceIsJkrAlongTheLineOfCentres) {
 }
 
 // Forces are added in double along the exact direction, whatever the matrix keeps of it.
+TEST(SpherePairs, FrictionOfTwoTypesIsTheGeometricMean) {
+  std::vector<NewCell> cells{sphere({0, 0, 0}), sphere({20, 0, 0}), sphere({40, 0, 0})};
+  cells[2].type = 1;
+  Spheres s(cells);
+  s.params.push_back(s.params[0]);
+  s.params[1].cell_friction = 40;
+  s.find();
+  ASSERT_EQ(s.sphere().size(), 2u);
+  EXPECT_FLOAT_EQ(s.sphere()[0].friction, static_cast<float>(10 * s.sphere()[0].touching));
+  EXPECT_FLOAT_EQ(s.sphere()[1].friction, static_cast<float>(20 * s.sphere()[1].touching));
+  s.options.friction_factor = 0;
+  s.find();
+  for (const contact::Contact& c : s.sphere()) EXPECT_EQ(c.friction, 0);
+}
+
 TEST(SpherePairs, ForceDoesNotKnowTheRoundedNormal) {
   Spheres s({sphere({0, 0, 0}), sphere({13, 17, 8})});
   s.find();

@@ -27,7 +27,7 @@ struct Spheres {
     params[0].adhesion = 0.01;
     params[0].medium_friction = 0.5;
     params[0].vessel_friction = 0.5;
-    options.cell_friction = 10;
+    params[0].cell_friction = 10;
   }
   std::vector<double> radius() const { return radii_at(state, time); }
   void find() {

@@ -101,7 +101,8 @@ TEST(Subworld, ConstrainedCellsDoNotMove) {
 // with friction between cells off, the small world is wrong by O(h^2) relative to the move.
 TEST(Subworld, MovesAsTheWholeDoesInAShortStep) {
   World w = make_block();
-  w.params.dcm_contact.cell_friction = w.params.cbm_contact.cell_friction = 0;
+  w.params.dcm_contact.cell_friction = 0;
+  for (cbm::Params& p : w.params.cbm) p.cell_friction = 0;
   w.params.interface.friction = 0;
   SizedWorkspace work(w);
   w.state.dcm.pull[2] = w.state.cbm.pull[2] = Vec3::Zero();

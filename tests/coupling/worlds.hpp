@@ -42,10 +42,10 @@ inline World make_test_world(const std::vector<TestCell>& cells, double step = 6
   c.medium_friction = c.vessel_friction = 0.5;
   c.diffusion = 1e-4;
   c.adhesion = 0.01;
+  c.cell_friction = 10;
   w.params.dcm = {d};
   w.params.cbm = {c};
   w.params.dcm_contact.cell_friction = 50;
-  w.params.cbm_contact.cell_friction = 10;
   w.params.interface.friction = 2 * 50.0 * 10.0 / 60;
   w.params.motility.random = false;
   w.params.numerics.max_step = step;

@@ -104,8 +104,41 @@ TEST_F(Calibrate, LetsTwoCellsComeToRestIfTheyAdhere) {
   EXPECT_CONTAINS(first.text, "overlap of two cells by themselves");
   const Json pair = json("law.calibration/pair_dcm/summary.json");
   EXPECT_EQ(pair["cells"]["dcm"], 2);
+  const Json slid = json("law.calibration/sliding_dcm/summary.json");
   ASSERT_EQ(calibrate({"--no-relaxation"}).code, 0);
   EXPECT_EQ(json("law.calibration/pair_dcm/summary.json"), pair) << "nothing runs twice";
+  EXPECT_EQ(json("law.calibration/sliding_dcm/summary.json"), slid) << "nothing runs twice";
+}
+
+TEST_F(Calibrate, SlidesLayersForTheFrictionOfSpheres) {
+  ASSERT_EQ(calibrate({"--no-relaxation"}).code, 0);
+  EXPECT_EQ(json("law.json")["friction_share"], 0) << "layers without adhesion come apart";
+  EXPECT_FALSE(fs::exists(path("law.calibration/sliding_dcm")));
+  replace("clump.json", "0 J/m^2", "1e-5 J/m^2");
+  const Outcome first = calibrate({"--no-relaxation", "--fresh"});
+  ASSERT_EQ(first.code, 0) << first.text;
+  EXPECT_CONTAINS(first.text, "friction per area between spheres");
+  EXPECT_TRUE(fs::exists(path("law.calibration/sliding.svg")));
+  const double share = json("law.json")["friction_share"];
+  EXPECT_GT(share, 0.05);
+  EXPECT_LT(share, 0.9) << "spheres with the same friction slide slower";
+  const Json curves = json("law.calibration/curves.json");
+  const double cells = curves["slid_dcm"]["slid_um"].back(),
+               spheres = curves["slid_cbm_corrected"]["slid_um"].back();
+  EXPECT_GT(cells, spheres) << "they shear elastically first";
+  EXPECT_GT(spheres, 1.5 * curves["slid_cbm_equal_friction"]["slid_um"].back().get<double>());
+
+  const Words used{
+      "run",   "clump.json",     "--set",     "model=cbm",
+      "--set", "time.end=1 min", "--set",     "cell_types.a.cbm.stiffness_correction=law.json",
+      "--out", "used",           "--threads", "1"};
+  EXPECT_CONTAINS(call(used).text,
+                  fmt::format("friction between spheres {:.3g} N s/m^3", 5e10 * share));
+  Words own = used;
+  own.insert(own.end(), {"--set", "friction.cbm_cbm=2e10 N s/m^3", "--overwrite"});
+  const Outcome kept = call(own);
+  EXPECT_EQ(kept.code, 0) << kept.text;
+  EXPECT_FALSE(test::contains(kept.text, "friction between spheres")) << kept.text;
 }
 
 TEST_F(Calibrate, GoesOnWhereItWasStopped) {

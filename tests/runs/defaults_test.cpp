@@ -45,10 +45,10 @@ auto fields(const dcm::Params& p) {
 }
 
 auto fields(const cbm::Params& p) {
-  const auto& [young, spread, poisson, medium, viscosity, whole, diffusion, adhesion, vessel,
-               correction] = p;
-  return std::tuple(young, spread, poisson, medium, viscosity, whole, diffusion, adhesion, vessel,
-                    correction.corrects());
+  const auto& [young, spread, poisson, friction, medium, viscosity, whole, diffusion, adhesion,
+               vessel, correction] = p;
+  return std::tuple(young, spread, poisson, friction, medium, viscosity, whole, diffusion, adhesion,
+                    vessel, correction.corrects());
 }
 
 auto fields(const dcm::ContactParams& p) {
@@ -59,8 +59,8 @@ auto fields(const dcm::ContactParams& p) {
 }
 
 auto fields(const cbm::ContactParams& p) {
-  const auto& [skin, friction, adhesion_factor, friction_factor] = p;
-  return std::tuple(skin, friction, adhesion_factor, friction_factor);
+  const auto& [skin, adhesion_factor, friction_factor] = p;
+  return std::tuple(skin, adhesion_factor, friction_factor);
 }
 
 auto fields(const coupling::InterfaceParams& p) {

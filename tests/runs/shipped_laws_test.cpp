@@ -65,6 +65,8 @@ TEST(ShippedLaws, AreSoundAndOfDifferentCells) {
   ASSERT_GE(laws.size(), 3);
   for (const std::string& file : laws) {
     const calibration::Law law = calibration::read_law(file);
+    EXPECT_GT(law.friction_share, 0.05) << file;
+    EXPECT_LT(law.friction_share, 0.9) << file;
     EXPECT_TRUE(law.warnings.empty()) << file << ": " << law.warnings.front();
     for (const std::string& other : laws)
       if (other != file) {
