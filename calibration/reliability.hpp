@@ -8,8 +8,8 @@ namespace acinus::calibration {
 
 /// Fewest inner cells whose mean represents tissue. At one pressure d differs by a tenth from cell
 /// to cell, and where the law is steepest a tenth of d is a factor of two in the modulus
-/// (docs/calibration.md): the mean of n cells gives the modulus to a factor 2^(1 / sqrt n), with
-/// twelve to a fifth.
+/// (docs/science/calibration.md): the mean of n cells gives the modulus to a factor 2^(1 / sqrt n),
+/// with twelve to a fifth.
 inline constexpr int kFewestInner = 12;
 
 /// Largest acceptable error of spheres with the law where it was not fitted, compressed by

@@ -22,7 +22,7 @@ inline constexpr double kNeighbours = 12;
 /// Relative overlap d of a cell: the sum over all its contacts, divided by the number of neighbours
 /// in dense tissue. With twelve neighbours it is the mean of [VanLiedekerke2020, Eq. (22)]. With
 /// other numbers it still measures crowding, and a new contact makes no jump
-/// (docs/decisions/0021.md). Where a law asks for the mean, the divisor is the number of contacts,
+/// (decision 21). Where a law asks for the mean, the divisor is the number of contacts,
 /// and both properties are lost.
 double relative_overlap(const ContactWorkspace& work, std::size_t cell, const StiffnessLaw& law);
 

@@ -38,7 +38,7 @@ struct StiffnessLaw {
 };
 
 /// Law of the paper, E~ = E + a1 d^4 with its a1 = 4e6 Pa. In loose tissue it makes spheres far too
-/// stiff (docs/decisions/0036.md).   [VanLiedekerke2020, Eq. (22), Table 1]
+/// stiff (decision 36).   [VanLiedekerke2020, Eq. (22), Table 1]
 inline StiffnessLaw paper_law() {
   StiffnessLaw law;
   law.term.push_back({4e3, 4});
@@ -97,7 +97,7 @@ inline Modulus corrected_modulus(const StiffnessLaw& law, double young, double d
 inline constexpr double kOwnOverlap = 1;
 
 /// The same for a vessel or a mirror wall: deformable cells flow round a vessel and flatten at a
-/// wall, by as much as twice the range at a few pascals (docs/decisions/0048.md).
+/// wall, by as much as twice the range at a few pascals (decision 48).
 inline constexpr double kOwnObstacleOverlap = 2;
 
 /// Modulus of one side of a contact.
@@ -129,7 +129,7 @@ struct WallFace {
 };
 
 /// Wall face of a sphere of modulus E~ whose law starts at E: a cap while the modulus is E. The
-/// increment of the law counts twice, with any recess. (docs/decisions/0022.md)
+/// increment of the law counts twice, with any recess. (decision 22)
 inline WallFace wall_face(const StiffnessLaw& law, double young, double modulus) {
   const double stiffened = std::max(0.0, modulus - young);
   return {law.wall_recess * (stiffened / modulus) * (stiffened / modulus), modulus + stiffened,

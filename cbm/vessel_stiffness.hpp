@@ -5,7 +5,7 @@
 ///
 /// A vessel is no neighbour in d, and crowded neighbours may be a hundred times as stiff as the
 /// sphere between them and the vessel. Without these two terms they press its centre through the
-/// wall. (docs/decisions/0043.md)
+/// wall. (decision 43)
 
 #include "cbm/stiffness_law.hpp"
 #include "contact/hertz.hpp"

@@ -85,7 +85,7 @@ Command add_calibrate(CLI::App& app, const std::string& command_line) {
   command
       ->add_option("--relaxation-time", arguments->relaxation_time,
                    "also look for the cell-cell friction with which the relaxation's exponential "
-                   "fit has this time, e.g. \"5 h\" (see docs/calibration.md first)")
+                   "fit has this time, e.g. \"5 h\" (see docs/science/calibration.md first)")
       ->type_name("TIME")
       ->excludes(none)
       ->excludes("--check-friction");

@@ -118,7 +118,7 @@ Gap gap_to_wall(const Vessels& vessels, int segment, const Vec3& x, double reach
 
 /// True if the contact of a sphere with `segment` is a local minimum of the distance along the
 /// network. A straight chain of any spacing then gives exactly one contact
-/// (docs/decisions/0003.md). At a joint of segments of different radius the nearest segment counts.
+/// (decision 3). At a joint of segments of different radius the nearest segment counts.
 /// @param gap  of the sphere's centre to this segment
 bool is_local_minimum(const Vessels& vessels, int segment, const Vec3& x, const Gap& gap);
 

@@ -9,7 +9,7 @@ namespace acinus::contact {
 
 /// Largest indentation of a vessel wall over the radius of the vessel. Linear elasticity is limited
 /// to small indentations; a wall without a limit would let a cell enclose a thin vessel
-/// (docs/decisions/0029.md).
+/// (decision 29).
 inline constexpr double kMostIndentation = 0.15;
 
 /// Largest indentation depth of a vessel wall, um; 0 if it is rigid. @param radius  um, of the

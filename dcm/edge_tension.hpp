@@ -16,7 +16,7 @@ struct EdgeTension {
 /// Coefficients of a step h of a spring k in series with a dashpot g, with a length that changes at
 /// a constant rate: f(t+h) = kept f(t) + share k (l(t+h) - l(t)). Exact for any h: (df/dt) / k + f
 /// / g = dl/dt.   [VanLiedekerke2020, Eq. (5) and (6), as scalars along the edge and with the sign
-/// that makes the dashpot dissipate energy; docs/models.md]
+/// that makes the dashpot dissipate energy; docs/science/models.md]
 struct SeriesStep {
   double kept = 1;   ///< exp(-q), q = k h / g
   double share = 1;  ///< (1 - exp(-q)) / q

@@ -3,7 +3,7 @@
 ///
 /// Its nodes are further points of the cell: rows of the cell's block of unknowns after those of
 /// the cortex, in the same lane. Loops over cells or over the nodes of the cortex exclude them;
-/// code that moves points includes them (docs/decisions/0033.md).
+/// code that moves points includes them (decision 33).
 
 #include "geometry/topology.hpp"
 

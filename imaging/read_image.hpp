@@ -22,9 +22,9 @@ struct ReadImage {
 
 /// Reads TIFF stacks (.tif, .tiff; voxel sizes of OME or ImageJ), NIfTI (.nii, .nii.gz, .hdr),
 /// MetaImage (.mha, .mhd), NRRD (.nrrd, .nhdr) and HDF5 (.h5, .hdf5; attribute element_size_um).
-/// Each statement of the file (docs/images.md lists them) is followed, or `notes` gets a line.
-/// Throws Error with the path and place where something is wrong, not supported, contradictory or
-/// missing; and at a choice in `how` that has no effect.
+/// Each statement of the file (docs/howto/images.md lists them) is followed, or `notes` gets a
+/// line. Throws Error with the path and place where something is wrong, not supported,
+/// contradictory or missing; and at a choice in `how` that has no effect.
 LabelImage read_image(const std::string& path, const ReadImage& how,
                       std::vector<std::string>* notes = nullptr);
 

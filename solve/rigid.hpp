@@ -3,7 +3,7 @@
 ///
 /// Medium friction can be 1e-8 of contact friction, so a small CG residual may hide a large rigid
 /// drift of a whole cluster. Every cluster's six rigid modes are therefore solved exactly
-/// (Galerkin) on the true residual. docs/decisions/0002.md says why the projected matrix is that of
+/// (Galerkin) on the true residual. decision 2 says why the projected matrix is that of
 /// the whole operator.
 
 #include <Eigen/Core>

@@ -6,7 +6,7 @@
 /// (springs, hinges, faces, one vector per cell, contacts), each blind to translation by its form,
 /// whatever the rounding of its numbers, and positive semi-definite (a spring as long as its two
 /// coefficients keep a + c >= 0, which rounding does not change). That is why elements may be
-/// floats (docs/decisions/0010.md).
+/// floats (decision 10).
 
 #include <array>
 #include <cstdint>

@@ -23,7 +23,7 @@ SPAN = re.compile(r"(`+)(.+?)\1")
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 PLACEHOLDER = re.compile(r"[A-Z][A-Z_.=]*$|.*[<>{}$]")
 IDENTIFIER = re.compile(r"[A-Z][a-z]\w*|[a-z]\w*_\w*[a-z]|k[A-Z]\w+")
-ABOUT_CODE = re.compile(r".+/README\.md|docs/howto/.*|docs/architecture\.md")
+ABOUT_CODE = re.compile(r".+/README\.md|docs/developers/(add_\w+|architecture)\.md")
 DOTTED = re.compile(r"[a-z_]+(?:\.(?:[a-z_]+|<\w+>|\*|[0-9]+))+")
 JSON_TOKEN = re.compile(r'("(?:\\.|[^"\\])*")|//[^\n]*|/\*.*?\*/', re.S)
 

@@ -1,4 +1,4 @@
-"""Compares the stages of a step that docs/architecture.md lists with the calls in coupling/step/step.cpp."""
+"""Compares the stages of a step that docs/developers/architecture.md lists with the calls in coupling/step/step.cpp."""
 
 import pathlib
 import re
@@ -36,7 +36,7 @@ def stages_listed(page):
 class StepList(unittest.TestCase):
     def setUp(self):
         self.source = (ROOT / "coupling/step/step.cpp").read_text()
-        self.page = (ROOT / "docs/architecture.md").read_text()
+        self.page = (ROOT / "docs/developers/architecture.md").read_text()
 
     def test_page_lists_the_calls(self):
         self.assertEqual(len(stages_called(self.source)), 9)  # the point, the system of it, and seven stages

@@ -68,8 +68,8 @@ StepCase cbm_case(int count, int steps, int repeats) {
 }
 
 BenchTable bench_dcm27(const BenchOptions&) {
-  // The loosest solver whose pressure is still within 2 % (docs/work_precision.md) beside the
-  // usual.
+  // The loosest solver whose pressure is still within 2 % (docs/developers/work_precision.md)
+  // beside the usual.
   return {measure_case(dcm_case(27, "3-point", 60)), measure_case(dcm_case(27, "nodes", 60)),
           measure_case(dcm_case(27, "3-point", 60, 1e-2)),
           measure_case(dcm_case(27, "nodes", 60, 1e-2))};

@@ -1,5 +1,5 @@
 #pragma once
-/// Random scenes of the stress suite; docs/stress.md describes the distribution.
+/// Random scenes of the stress suite; docs/developers/stress.md describes the distribution.
 
 #include <cstdint>
 #include <string>

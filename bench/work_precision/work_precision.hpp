@@ -1,6 +1,6 @@
 #pragma once
-/// Work-precision benchmarks of all numerical settings (docs/work_precision.md): Markdown tables,
-/// SVG plots, and the cheapest setting for a given error.
+/// Work-precision benchmarks of all numerical settings (docs/developers/work_precision.md):
+/// Markdown tables, SVG plots, and the cheapest setting for a given error.
 
 #include "bench/output/bench_table.hpp"
 

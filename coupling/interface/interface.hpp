@@ -2,11 +2,11 @@
 /// Interface between the two models: contact of a deformable surface with a compliant sphere.
 ///
 /// Tension as between two deformable cells. Under compression the sphere yields: pressure = -k_s
-/// gap on the present area (docs/decisions/0035.md) with 1/k_s = 1/k_rep + 1/k_w and the Winkler
+/// gap on the present area (decision 35) with 1/k_s = 1/k_rep + 1/k_w and the Winkler
 /// constant k_w = 4 E* / (3 pi R sqrt(d)) that matches the sphere's half of a Hertz contact. d =
 /// indentation / R, with the deepest point of this pair's contact at the start of the step
-/// (docs/decisions/0008.md). A rigid sphere would be about 40 times too stiff. A calibrated sphere
-/// has the modulus of its overlap, or of a deeper indentation (docs/decisions/0020.md).
+/// (decision 8). A rigid sphere would be about 40 times too stiff. A calibrated sphere
+/// has the modulus of its overlap, or of a deeper indentation (decision 20).
 
 #include <cstdint>
 #include <span>

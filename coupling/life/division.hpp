@@ -35,7 +35,7 @@ struct DaughterMeshes {
 /// Divides a deformable cell: a plane halves its volume, and a new mesh is projected onto each
 /// half. A half that is too folded is filled in a sub-simulation (fill.hpp). Other planes are tried
 /// if the cut is not one loop or a mesh is not sound. [VanLiedekerke2020, section 2.1.2 and Fig. 3;
-/// docs/decisions/0014.md]
+/// decision 14]
 /// @return false if no plane was accepted; `why` is the cause at the last one
 [[nodiscard]] bool split_shell(const World& world, std::size_t lane, DaughterMeshes& daughters,
                                std::string& why);

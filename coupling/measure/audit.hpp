@@ -68,7 +68,7 @@ struct WorstPair {
 struct AuditResult {
   /// Largest of dcm_dcm, dcm_vessel, dcm_wall and dcm_cbm_beyond_indentation. A soft sphere is
   /// indented by a cell, as two spheres overlap by their law; only larger depths count
-  /// (docs/decisions/0009.md).
+  /// (decision 9).
   double max_penetration_um = 0;
   /// max_penetration_um without pairs that have a newborn cell.
   double max_penetration_grown_um = 0;

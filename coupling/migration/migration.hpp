@@ -20,7 +20,7 @@ Vec3 mean_random(std::uint64_t seed, std::int64_t lineage, double grid, double t
 
 /// Computes active forces on all cells. Random force per component: Gamma_med sqrt(2 D / grid) xi,
 /// with the present friction Gamma_med of the cell with the medium.
-/// [VanLiedekerke2020, Eq. (1) term 9 and Eq. (19), with the noise of docs/decisions/0004.md]
+/// [VanLiedekerke2020, Eq. (1) term 9 and Eq. (19), with the noise of decision 4]
 void compute_cell_forces(const World& world, const State& at, double step,
                          const MediumFriction& medium, std::span<const std::uint8_t> leader,
                          CellForces& forces);

@@ -1,7 +1,7 @@
 #pragma once
 /// Steps of a world with sleeping cells. Awake cells step in a subworld, with neighbouring sleepers
 /// as constraints. Sleepers move with a velocity from one long step, renewed on a time grid
-/// (docs/decisions/0015.md).
+/// (decision 15).
 
 #include <cstdint>
 #include <memory>

@@ -4,7 +4,7 @@
 /// A cell falls asleep if it does not grow and its residual force per area is below a threshold; it
 /// wakes above. The balance is evaluated on a time grid, with all loads of all cells as if none
 /// slept. Until the next evaluation a sleeper keeps the velocity of one long step
-/// (partial_step.hpp), a constraint for awake cells (docs/decisions/0015.md).
+/// (partial_step.hpp), a constraint for awake cells (decision 15).
 
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"

@@ -20,7 +20,7 @@ bool is_steady(const World& world) {
   if (!has_last_move(s) || s.dcm.n_lane() == 0) return false;
   // Deformable cells under pressure bulge into gaps between spheres. The matrix has only part of
   // the resistance of a bulge, pressure and stretched triangles: extrapolated steps oscillate there
-  // and others settle (docs/decisions/0035.md).
+  // and others settle (decision 35).
   if (s.cbm.n_cell() > 0 && s.clock.step < world.params.numerics.max_step) return false;
   if (!has_random_force(world)) return true;
   const double now = s.clock.time - s.clock.origin;

@@ -23,9 +23,9 @@ void assemble(const World& world, double step, Workspace& work, const SystemTerm
 ///
 /// Linearly implicit Euler, (Gamma/h + K) dx = F(x; t + h), of first order, is the default:
 /// contacts make the dynamics piecewise smooth, where higher order does not pay
-/// (docs/decisions/0012.md). With numerics.extrapolate F and K are evaluated at the predictor x + h
+/// (decision 12). With numerics.extrapolate F and K are evaluated at the predictor x + h
 /// v with the velocity of the last step, which removes the lag of steady motion
-/// (docs/decisions/0016.md). Explicit Euler and Newton's method serve comparisons and single cells
+/// (decision 16). Explicit Euler and Newton's method serve comparisons and single cells
 /// without contacts.
 /// @param first_try  true unless an attempt at this step was rejected
 /// @param effort     counters that the work of this attempt is added to

@@ -12,7 +12,7 @@
 ///
 /// The first part is the friction between facing places; the others resist the stretch and rotation
 /// of a triangle even if its partner follows. They shrink with the square of the edges, and they do
-/// not vanish under rotation (docs/decisions/0026.md).
+/// not vanish under rotation (decision 26).
 
 #include <vector>
 

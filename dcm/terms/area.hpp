@@ -11,7 +11,7 @@ namespace acinus::dcm {
 /// cell. [VanLiedekerke2020, Eq. (12), in its energy form] Stiffness: (K_A / A0) g g^T, rank one,
 /// and under tension sigma = K_A (A - A0)/A0 > 0 the geometric stiffness sigma/sqrt(3) (I - u u^T)
 /// per edge, with the cotangent weight of near-equilateral triangles. Without that part stretched
-/// cells chatter (docs/decisions/0007.md).
+/// cells chatter (decision 7).
 void add_area(const Params& p, const GroupView& g, solve::System& system, solve::RankOne& family);
 
 /// Surface areas of all lanes, um^2.

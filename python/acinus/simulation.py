@@ -1,4 +1,4 @@
-"""Simulations driven from Python: the module that `./acinus.sh python` builds (docs/python.md)."""
+"""Simulations driven from Python: the module that `./acinus.sh python` builds (docs/howto/python.md)."""
 import json
 import os
 import warnings

@@ -54,7 +54,7 @@ void add_static_meshes(const Scene& scene, contact::Boundary& boundary) {
 /// Adds the triangulated vessel surface as an obstacle if vessels.contact is "mesh".
 /// Facets deviate from the cones of the network by a share of the radius proportional to the
 /// squared edge length. They are finer than in files, so that contact pressures differ by 1 % from
-/// those at the cones, not by 2 % (docs/images.md).
+/// those at the cones, not by 2 % (docs/howto/images.md).
 void add_wall(const Scene& scene, contact::Vessels& vessels, Notes& notes) {
   if (scene.vessels.contact != VesselWalls::kMesh || vessels.network.segment.empty()) return;
   constexpr double kFineness = 0.15;

@@ -13,8 +13,8 @@
 namespace acinus::runs {
 namespace {
 
-// Measured where cells touch all around (docs/benchmarks.md: bytes_per_cell); with few contacts a
-// third of it.
+// Measured where cells touch all around (docs/developers/benchmarks.md: bytes_per_cell); with few
+// contacts a third of it.
 constexpr double kBytesPerNode = 450, kBytesPerSphere = 900;
 /// Memory of a branch point, bytes: its nodes, segments, wall and search grids.
 constexpr double kBytesPerBranch = 2000;

@@ -28,7 +28,7 @@ std::string describe_law(const std::string& file) {
 
 std::string find_shipped_law(const Scene& scene, const CellType& type) {
   // Shipped laws were calibrated with the default settings of contact. Quadratures agree to 8 % of
-  // the modulus, less than a law errs in other tissue (docs/calibration.md).
+  // the modulus, less than a law errs in other tissue (docs/science/calibration.md).
   const ContactBlock defaults;
   ContactBlock contact = scene.contact;
   contact.quadrature = defaults.quadrature;

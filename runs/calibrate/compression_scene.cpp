@@ -18,7 +18,7 @@ namespace {
 /// measured with 15 cells.
 constexpr double kCompressedVolume = 0.70;
 /// Shrink rate relative to the smallest radius, 1/s: 0.3 um/h at 26 um. Halving it changes the
-/// force by 1 % (docs/calibration.md).
+/// force by 1 % (docs/science/calibration.md).
 constexpr double kShrinkRate = 0.0115 / 3600;
 /// Least ratio of the local area modulus to the bulk modulus, um; softer surfaces fold under this
 /// pressure.

@@ -2,7 +2,7 @@
 /// Experiments of scenes as rows of one table.
 ///
 /// The source NAME_experiment.cpp holds all of an experiment and defines its row; everything else
-/// asks the row. docs/howto/add_an_experiment.md says how to add one.
+/// asks the row. docs/developers/add_an_experiment.md says how to add one.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

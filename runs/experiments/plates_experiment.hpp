@@ -9,7 +9,7 @@ namespace acinus::runs {
 /// the tension is the same everywhere, and of the shell that is flattened,
 ///   F = 2 pi (K + K_A) R e^3 + 8 sqrt(Y kappa) e,   e = 1 - gap / 2R
 /// with K = (sqrt 3 / 2) k_s, Y = (2/sqrt 3) k_s, kappa = (sqrt 3 / 2) k_b of the net
-/// (docs/models.md says where it holds).
+/// (docs/science/models.md says where it holds).
 double shell_force(const dcm::Params& cell, double radius, double gap);
 
 }  // namespace acinus::runs

@@ -18,7 +18,7 @@ std::string explain_key(const std::string& query,
 /// One line per key: path, default, meaning.
 std::string explain_all(const std::vector<Entry>& entries = all_entries());
 
-/// All keys as a Markdown page, kept as docs/scene_keys.md.
+/// All keys as a Markdown page, kept as docs/reference/scene_keys.md.
 std::string explain_markdown();
 
 }  // namespace acinus::runs

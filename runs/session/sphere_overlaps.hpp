@@ -2,7 +2,7 @@
 /// Overlaps of spheres with each other and with vessels, and their limits.
 ///
 /// The contact law of spheres holds for overlaps small against their radius. Deeper ones mean loads
-/// that deformable cells would carry otherwise (docs/calibration.md).
+/// that deformable cells would carry otherwise (docs/science/calibration.md).
 
 #include <string>
 

@@ -7,7 +7,7 @@
 namespace acinus::runs {
 namespace {
 
-/// CPU time per sphere and step in packed tissue, s (docs/benchmarks.md).
+/// CPU time per sphere and step in packed tissue, s (docs/developers/benchmarks.md).
 constexpr double kSphereStepCost = 4e-6;
 /// Mean number of solves per step with step-size control, since contacts close within the step.
 constexpr double kSolvesPerStep = 3;

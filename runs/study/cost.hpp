@@ -6,7 +6,7 @@
 namespace acinus::runs {
 
 /// Estimated CPU time of a run, s: cells x steps x CPU time per cell and step on the machine of
-/// docs/benchmarks.md. Correct within a factor of about three: enough for load balance.
+/// docs/developers/benchmarks.md. Correct within a factor of about three: enough for load balance.
 /// @param shared_start  the run takes its state at t = 0 from another run
 double estimate_cost(const Scene& scene, bool shared_start);
 

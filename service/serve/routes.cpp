@@ -131,7 +131,7 @@ Task<HttpReply> Routes::answer(const HttpRequest& request) {
   } catch (const Error& error) {
     fault = from_error(error);
   }
-  co_return fault ? *fault : not_found("no such place; docs/service.md lists what there is");
+  co_return fault ? *fault : not_found("no such place; docs/howto/service.md lists what there is");
 }
 
 HttpReply Routes::answer_page(const HttpRequest& request) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Dispatch of HTTP requests to their handlers (docs/service.md).
+/// Dispatch of HTTP requests to their handlers (docs/howto/service.md).
 
 #include <boost/asio/io_context.hpp>
 #include <memory>

@@ -21,7 +21,7 @@ SCENE = """{
   "output": {"every": "%s"}
 }"""
 
-# What docs/stopping.md says, signal by signal.
+# What docs/howto/stopping.md says, signal by signal.
 STOP = ("HUP", "INT", "QUIT", "USR1", "USR2", "ALRM", "TERM", "XCPU", "VTALRM", "PROF", "STKFLT", "POLL", "PWR", "RTMIN", "RTMAX")
 IGNORED = ("PIPE", "XFSZ", "CHLD", "CONT", "URG", "WINCH")
 CRASH = ("ILL", "TRAP", "ABRT", "BUS", "FPE", "SEGV", "SYS")

@@ -43,7 +43,8 @@ Scatter largest_pull(const Setting& s, double step) {
   return test::scatter_of(ratio);
 }
 
-// Prints the table of docs/benchmarks.md: curvatures estimated from meshes leave 2e-4 of the force.
+// Prints the table of docs/developers/benchmarks.md: curvatures estimated from meshes leave 2e-4 of
+// the force.
 TEST(MaugisScatter, OfPairsOfIcospheres) {
   for (const int nodes : {162, 642})
     for (const double modulus : {10.0, 1.0}) {

@@ -213,7 +213,7 @@ TEST(Cortex, StiffnessOfATautCellIsTheHessian) {
 }
 
 // A step is stable where the matrix is at least half the true derivative: a tense membrane resists
-// short waves of the surface, which the rank-one part alone does not see (docs/decisions/0007.md).
+// short waves of the surface, which the rank-one part alone does not see (decision 7).
 TEST(Area, MatrixHoldsATautSurface) {
   Cells c = make_rest_cells(geometry::shared_icosphere(42), {8, 9, 10});
   auto random = reference::stream(5);

@@ -385,8 +385,10 @@ TEST(Explain, FindsKeysByPathShortPathAndName) {
 }
 
 TEST(Explain, MarkdownPageIsUpToDate) {
-  EXPECT_EQ(io::read_text_file(test::source_path("docs/scene_keys.md")), explain_markdown())
-      << "docs/scene_keys.md is stale: acinus explain --markdown > docs/scene_keys.md";
+  EXPECT_EQ(io::read_text_file(test::source_path("docs/reference/scene_keys.md")),
+            explain_markdown())
+      << "docs/reference/scene_keys.md is stale: acinus explain --markdown > "
+         "docs/reference/scene_keys.md";
 }
 
 TEST(Schema, KnowsEveryKey) {
