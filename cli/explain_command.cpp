@@ -1,8 +1,9 @@
-/// Commands `acinus explain` and `acinus schema`: keys of scenes and studies.
+/// Commands `acinus explain` and `acinus schema`: keys of scenes and studies, observables.
 
 #include <memory>
 
 #include "cli/command.hpp"
+#include "runs/experiments/explain_observables.hpp"
 #include "runs/scene/entries.hpp"
 #include "runs/scene/explain.hpp"
 #include "runs/scene/schema.hpp"
@@ -10,6 +11,11 @@
 
 namespace acinus::cli {
 namespace {
+
+int explain_measured(bool markdown) {
+  fmt::print("{}", markdown ? runs::explain_observables_markdown() : runs::explain_observables());
+  return 0;
+}
 
 int explain(const std::string& key, bool markdown) {
   if (markdown) {
@@ -28,13 +34,17 @@ int explain(const std::string& key, bool markdown) {
 Command add_explain(CLI::App& app) {
   CLI::App* command =
       add_command(app, "explain", "say what a scene key means; without KEY, list all",
-                  "acinus explain cell.radius");
+                  "acinus explain cell.radius\n         acinus explain --observables");
   const auto key = std::make_shared<std::string>();
-  const auto markdown = std::make_shared<bool>(false);
+  const auto markdown = std::make_shared<bool>(false), observables = std::make_shared<bool>(false);
   CLI::Option* option =
       command->add_option("KEY", *key, "path or last name of a key; study.KEY: of studies");
-  command->add_flag("--markdown", *markdown, "all keys as a Markdown page")->excludes(option);
-  return {command, [key, markdown] { return explain(*key, *markdown); }};
+  command->add_flag("--observables", *observables, "list what runs measure in place of keys")
+      ->excludes(option);
+  command->add_flag("--markdown", *markdown, "all of them as a Markdown page")->excludes(option);
+  return {command, [key, markdown, observables] {
+            return *observables ? explain_measured(*markdown) : explain(*key, *markdown);
+          }};
 }
 
 Command add_schema(CLI::App& app) {

@@ -65,7 +65,7 @@ def entries_of(text, heading):
 
 
 def cell(text):
-    return text.replace("|", "\\|").strip()
+    return text.replace("|", "\\|").replace("<", "\\<").strip()
 
 
 def describe(lines):
@@ -73,8 +73,8 @@ def describe(lines):
     text = ""
     for line in lines:
         name, _, meaning = line.strip().partition("  ")
-        text += f"<br>`{name}`: {meaning.strip()}" if line.startswith(" ") else " " + line
-    return cell(text)
+        text += f"<br>`{name}`: {cell(meaning)}" if line.startswith(" ") else " " + cell(line)
+    return text.strip()
 
 
 def row_of(left, lines):
@@ -85,7 +85,7 @@ def row_of(left, lines):
     for word, said in (("Needs", "only with"), ("Excludes", "not with")):
         found = re.search(rf" ?\b{word}: ((?:--?[\w-]+|[A-Z]+)(?: --[\w-]+)*)", rest)
         if found:
-            options = ", ".join(f"`{option}`" for option in found.group(1).split())
+            options = ", ".join(f"`{option}`" for option in sorted(found.group(1).split()))
             conditions.append(f"{said} {options}")
             rest = rest.replace(found.group(0), "")
     if re.search(r"\bREQUIRED\b", rest):
@@ -104,7 +104,9 @@ def row_of(left, lines):
     text = describe(lines)
     if conditions and "may be repeated" in text:
         conditions = [c for c in conditions if c != "may be repeated"]
-    return f"| `{name}` | {'`' + cell(value) + '`' if value else ''} | {text}{' (' + '; '.join(conditions) + ')' if conditions else ''} |"
+    shown = "`" + value.replace("|", "\\|") + "`" if value else ""
+    more = f" ({'; '.join(conditions)})" if conditions else ""
+    return f"| `{name}` | {shown} | {text}{more} |"
 
 
 def section(program, words):

@@ -29,8 +29,8 @@ void check_aspiration(const Scene& scene, Report& report) {
 }
 
 std::vector<Observable> aspiration_columns() {
-  return {{"suction_Pa", "Pa", "by how much the pressure in the pipette is below that outside"},
-          {"aspirated_length_um", "um", "how far the cell reaches beyond the pipette's mouth"}};
+  return {{"suction_Pa", "Pa", "pressure outside the pipette less the pressure inside"},
+          {"aspirated_length_um", "um", "length of the cell inside the pipette"}};
 }
 
 void sample_aspiration(const coupling::Suction& s, const ObservedFrame& f, Measures& m) {

@@ -16,14 +16,16 @@ namespace acinus::runs {
 namespace {
 
 std::vector<Observable> capsule_columns() {
-  return {{"capsule_radius_um", "um", "radius of the capsule; 0 once it is open"},
-          {"overlap", "1", "relative overlap d of the cell nearest the centre"},
-          {"shell_overlap", "1", "mean d of the 14 cells nearest to it"},
-          {"contact_force_nN", "nN", "sum of the sizes of the forces on that cell"},
-          {"normal_force_nN", "nN", "sum of the normal forces on it, pressing positive"},
-          {"contacts", "1", "cells in contact with it"},
-          {"pressure_Pa", "Pa", "its contact pressure"},
-          {"volume_relative", "1", "its volume over its reference volume"}};
+  return {
+      {"capsule_radius_um", "um", "radius of the capsule; 0 once it is open"},
+      {"overlap", "1", "relative overlap d of the cell nearest the centre"},
+      {"shell_overlap", "1", "mean d of the 14 cells nearest to that cell"},
+      {"contact_force_nN", "nN", "sum of the magnitudes of the contact forces on the central cell"},
+      {"normal_force_nN", "nN",
+       "sum of the normal forces on the central cell, compression positive"},
+      {"contacts", "1", "cells in contact with the central cell"},
+      {"pressure_Pa", "Pa", "contact pressure of the central cell"},
+      {"volume_relative", "1", "volume of the central cell over its reference volume"}};
 }
 
 void sample_capsule(const ObservedFrame& frame, ObservedRun& observed) {

@@ -138,28 +138,38 @@ void add_shapes(const coupling::World& world, const Snapshot& s, bool flat, Meas
 std::vector<Observable> growth_columns(bool flat) {
   const char* density = flat ? "1/mm^2" : "1/mm^3";
   std::vector<Observable> list{
-      {"radius_of_gyration_um", "um", "sqrt(1/N sum |x_i - x_com|^2) of the cells' centres"},
-      {"mean_pressure_Pa", "Pa", "mean contact pressure"},
-      {"mean_cytosol_pressure_Pa", "Pa", "mean pressure within, the paper's pressure"},
-      {"inner_cells", "1", "cells below 1/3 of the largest distance from the middle"},
-      {"inner_pressure_Pa", "Pa", "their mean contact pressure"},
-      {"inner_cytosol_pressure_Pa", "Pa", "their mean pressure within"},
-      {"inner_density", density, "their density"},
-      {"outer_cells", "1", "cells from 2/3 of the largest distance on"},
-      {"outer_pressure_Pa", "Pa", "their mean contact pressure"},
-      {"outer_cytosol_pressure_Pa", "Pa", "their mean pressure within"},
-      {"outer_density", density, "their density"},
-      {"sphericity", "1", "mean pi^(1/3) (6 V)^(2/3) / A of the deformable cells; 0 without"}};
+      {"radius_of_gyration_um", "um",
+       "root mean square distance of the cells' centres from their mean"},
+      {"mean_pressure_Pa", "Pa", "mean contact pressure of all cells"},
+      {"mean_cytosol_pressure_Pa", "Pa",
+       "mean cytosol pressure of all cells (of spheres: contact pressure)"},
+      {"inner_cells", "1",
+       "cells nearer to the centre of the tissue than 1/3 of the largest distance"},
+      {"inner_pressure_Pa", "Pa", "mean contact pressure of the inner cells"},
+      {"inner_cytosol_pressure_Pa", "Pa", "mean cytosol pressure of the inner cells"},
+      {"inner_density", density, "number density of the inner cells"},
+      {"outer_cells", "1",
+       "cells farther from the centre of the tissue than 2/3 of the largest distance"},
+      {"outer_pressure_Pa", "Pa", "mean contact pressure of the outer cells"},
+      {"outer_cytosol_pressure_Pa", "Pa", "mean cytosol pressure of the outer cells"},
+      {"outer_density", density, "number density of the outer cells"},
+      {"sphericity", "1",
+       "mean of pi^(1/3) (6 V)^(2/3) / A over the deformable cells; 0 without any"}};
   if (flat)
-    append(list, {{"height_um", "um", "mean height of the deformable cells; 0 without"},
-                  {"height_to_width", "1", "mean ratio of their height to their width"}});
-  append(list, {{"shell_width_um", "um", "width of each of the ten shells (rings)"}});
+    append(list, {{"height_um", "um", "mean height of the deformable cells; 0 without any"},
+                  {"height_to_width", "1",
+                   "mean ratio of height to width of the deformable cells; 0 without any"}});
+  append(list,
+         {{"shell_width_um", "um",
+           "width of each of ten shells (in a plane: rings) about the centre of the tissue"}});
   for (int k = 1; k <= kShells; ++k)
-    append(list,
-           {{fmt::format("shell_{}_cells", k), "1", fmt::format("cells in shell {}", k)},
-            {fmt::format("shell_{}_cytosol_pressure_Pa", k), "Pa", "their mean pressure within"},
-            {fmt::format("shell_{}_contact_pressure_Pa", k), "Pa", "their mean contact pressure"},
-            {fmt::format("shell_{}_density", k), density, "their density"}});
+    append(list, {{fmt::format("shell_{}_cells", k), "1", fmt::format("cells in shell {}", k)},
+                  {fmt::format("shell_{}_cytosol_pressure_Pa", k), "Pa",
+                   fmt::format("mean cytosol pressure in shell {}", k)},
+                  {fmt::format("shell_{}_contact_pressure_Pa", k), "Pa",
+                   fmt::format("mean contact pressure in shell {}", k)},
+                  {fmt::format("shell_{}_density", k), density,
+                   fmt::format("number density in shell {}", k)}});
   return list;
 }
 

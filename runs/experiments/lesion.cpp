@@ -17,10 +17,14 @@ int n_slices(const LesionFrame& f) {
 
 const std::array<LesionReading, 4>& lesion_readings() {
   static const std::array<LesionReading, 4> readings{
-      LesionReading{"slices_centre", "slices of height, centre of the closest cell", false, false},
-      LesionReading{"slices_surface", "slices of height, surface of the closest cell", false, true},
-      LesionReading{"rings_centre", "three rings behind the edge, centres", true, false},
-      LesionReading{"rings_surface", "three rings behind the edge, surfaces", true, true}};
+      LesionReading{"slices_centre",
+                    "mean over slices of height, by the centre of the nearest cell", false, false},
+      LesionReading{"slices_surface",
+                    "mean over slices of height, by the surface of the nearest cell", false, true},
+      LesionReading{"rings_centre",
+                    "mean over the three rings of cells behind the edge, by centres", true, false},
+      LesionReading{"rings_surface",
+                    "mean over the three rings of cells behind the edge, by surfaces", true, true}};
   return readings;
 }
 

@@ -182,61 +182,73 @@ void sample_lobule(const ObservedFrame& frame, ObservedRun& o) {
 
 /// Columns of the size of the lesion.
 std::vector<Observable> lesion_columns() {
-  std::vector<Observable> list{{"lesion_radius_um", "um", "as lesion_radius_slices_centre_um"},
-                               {"lesion_area_relative", "1", "as lesion_area_slices_centre_floor"},
-                               {"lesion_area_surface", "1", "as lesion_area_slices_surface_floor"}};
+  std::vector<Observable> list{
+      {"lesion_radius_um", "um", "lesion radius: the same as lesion_radius_slices_centre_um"},
+      {"lesion_area_relative", "1",
+       "relative lesion area: the same as lesion_area_slices_centre_floor"},
+      {"lesion_area_surface", "1",
+       "relative lesion area by surfaces: the same as lesion_area_slices_surface_floor"}};
   for (const LesionReading& r : lesion_readings())
-    append(list, {{fmt::format("lesion_radius_{}_um", r.name), "um", "lesion radius, " + r.meaning},
-                  {"lesion_area_" + r.name, "1", "(r / r0)^2, " + r.meaning},
-                  {"lesion_area_" + r.name + "_floor", "1",
-                   "((r - floor) / (r0 - floor))^2, " + r.meaning}});
+    append(
+        list,
+        {{fmt::format("lesion_radius_{}_um", r.name), "um", "lesion radius r, " + r.meaning},
+         {"lesion_area_" + r.name, "1", "(r / r0)^2, r0 = r of the first frame; r: " + r.meaning},
+         {"lesion_area_" + r.name + "_floor", "1",
+          "((r - floor) / (r0 - floor))^2, floor = r of a lesion that is closed; r: " +
+              r.meaning}});
   append(
       list,
       {{"lesion_area_open_um2", "um^2",
         "horizontal area inside the initial lesion outside vessels that no cell covers, mean "
         "over height"},
-       {"lesion_area_open", "1", "the same relative to the first frame"},
+       {"lesion_area_open", "1", "lesion_area_open_um2 relative to the first frame"},
        {"front_radius_mean_um", "um",
         "mean over angle and height of the distance from the axis to the first cell surface, "
         "one cell diameter beyond the initial lesion at most"},
-       {"front_roughness_um", "um", "standard deviation of that distance"},
-       {"lesion_area_seen", "1", "area up to that distance relative to the first frame"},
+       {"front_roughness_um", "um",
+        "standard deviation of the distance that front_radius_mean_um averages"},
+       {"lesion_area_seen", "1", "area within front_radius_mean_um relative to the first frame"},
        {"lesion_area_flooded_um2", "um^2",
         "horizontal area inside the initial lesion that is connected to the central vein through "
         "cubes of one cell radius of which cells cover less than half, mean over height"},
-       {"lesion_area_flooded", "1", "the same relative to the first frame"}});
+       {"lesion_area_flooded", "1", "lesion_area_flooded_um2 relative to the first frame"}});
   return list;
 }
 
 std::vector<Observable> lobule_columns() {
   std::vector<Observable> list = lesion_columns();
   for (const std::string& layer : layer_names()) {
-    append(list,
-           {{"cells_layer_" + layer, "1", "cells in this layer from the lesion's edge"},
-            {"births_layer_" + layer, "1",
-             "divisions so far in this layer when they happened, counted as life.proliferation "
-             "counts layers if the scene has it"}});
+    const std::string place =
+        layer == "beyond" ? fmt::format("beyond layer {}", kLayers) : "in layer " + layer;
+    append(list, {{"cells_layer_" + layer, "1",
+                   fmt::format("cells {}, counted from the edge of the lesion", place)},
+                  {"births_layer_" + layer, "1",
+                   fmt::format("divisions so far {}; layers as life.proliferation counts them, if "
+                               "the scene has it",
+                               place)}});
   }
-  append(list,
-         {{"births", "1", "divisions so far in all layers"},
-          {"density_per_mm3", "1/mm^3", "cells per volume of the domain outside vessels"},
-          {"density_tissue_per_mm3", "1/mm^3", "the same without the open area of the lesion"},
-          {"leaders", "1", "cells that lead"},
-          {"leader_speed_um_h", "um/h",
-           "mean speed toward the axis of those that led at the last "
-           "frame; 0 without"},
-          {"leader_speed_cells", "1", "their number"},
-          {"follower_speed_um_h", "um/h", "mean speed toward the axis of all others; 0 without"},
-          {"follower_speed_cells", "1", "their number"},
-          {"sinusoid_contact_area_um2", "um^2", "area of cells in touch with sinusoids"},
-          {"sinusoid_contact_area_per_cell_um2", "um^2", "the same per cell"},
-          {"sinusoid_distance_um", "um",
-           "mean distance of a cell's centre from the nearest "
-           "sinusoid's wall"},
-          {"plate_thickness_um", "um",
-           "mean length of the pieces of horizontal lines that run through cells"},
-          {"plate_chords", "1", "number of such pieces"},
-          {"mean_pressure_Pa", "Pa", "mean contact pressure of all cells"}});
+  append(
+      list,
+      {{"births", "1", "divisions so far in all layers"},
+       {"density_per_mm3", "1/mm^3", "cells per volume of the domain outside vessels"},
+       {"density_tissue_per_mm3", "1/mm^3", "density_per_mm3 without the open area of the lesion"},
+       {"leaders", "1", "number of leaders"},
+       {"leader_speed_um_h", "um/h",
+        "mean speed toward the axis of the cells that were leaders at the frame before; 0 "
+        "without any"},
+       {"leader_speed_cells", "1", "number of cells in leader_speed_um_h"},
+       {"follower_speed_um_h", "um/h",
+        "mean speed toward the axis of all other cells; 0 without any"},
+       {"follower_speed_cells", "1", "number of cells in follower_speed_um_h"},
+       {"sinusoid_contact_area_um2", "um^2", "area of cells in contact with sinusoids"},
+       {"sinusoid_contact_area_per_cell_um2", "um^2", "area in contact with sinusoids per cell"},
+       {"sinusoid_distance_um", "um",
+        "mean distance of a cell's centre from the nearest "
+        "sinusoid's wall"},
+       {"plate_thickness_um", "um",
+        "mean length of the pieces of horizontal lines that run through cells"},
+       {"plate_chords", "1", "number of pieces in plate_thickness_um"},
+       {"mean_pressure_Pa", "Pa", "mean contact pressure of all cells"}});
   return list;
 }
 

@@ -46,9 +46,9 @@ void check_narrow_gap(const Scene& scene, Report& report) {
 std::vector<Observable> narrow_gap_columns() {
   return {{"position_um", "um", "the cell's centre along the axis of the hole, from its mouth"},
           {"length_um", "um", "extent of the cell along the axis"},
-          {"width_um", "um", "mean extent across it"},
+          {"width_um", "um", "mean extent of the cell across the axis"},
           {"waist_um", "um",
-           "diameter of a circle as large as the cell's section halfway through the hole"},
+           "diameter of a circle with the area of the cell's section halfway through the hole"},
           {"passed", "1", "1 once all of the cell is beyond the hole"}};
 }
 

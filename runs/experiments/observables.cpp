@@ -15,13 +15,15 @@ List pressures() {
   List list;
   for (const auto& [model, cells] :
        {std::pair("dcm", "deformable cells"), std::pair("cbm", "spheres")})
-    for (const auto& [kind, what] :
-         {std::pair("contact_pressure", "contact pressure"),
-          std::pair("cytosol_pressure", "pressure within (of spheres: contact pressure)")})
-      append(list, {{fmt::format("{}_mean_{}_Pa", kind, model), "Pa",
-                     fmt::format("mean {} of the {}; 0 without any", what, cells)},
-                    {fmt::format("{}_max_{}_Pa", kind, model), "Pa",
-                     fmt::format("largest {} of the {}; 0 without any", what, cells)}});
+    for (const std::string kind : {"contact", "cytosol"}) {
+      const std::string what = fmt::format("{} pressure of the {}", kind, cells);
+      const bool same = kind == "cytosol" && std::string(model) == "cbm";
+      const std::string more = same ? ", which is their contact pressure" : "";
+      append(list, {{fmt::format("{}_pressure_mean_{}_Pa", kind, model), "Pa",
+                     fmt::format("mean {}{}; 0 without any", what, more)},
+                    {fmt::format("{}_pressure_max_{}_Pa", kind, model), "Pa",
+                     fmt::format("largest {}{}; 0 without any", what, more)}});
+    }
   return list;
 }
 
@@ -37,7 +39,9 @@ List tissue() {
       list,
       {{"overlap_dcm_dcm_um", "um", "deepest overlap of two deformable cells"},
        {"overlap_dcm_cbm_um", "um", "deepest point of a deformable cell in a round sphere"},
-       {"overlap_dcm_cbm_beyond_um", "um", "the same beyond the indentation their force explains"},
+       {"overlap_dcm_cbm_beyond_um", "um",
+        "deepest point of a deformable cell in a sphere beyond the indentation that their "
+        "contact force explains"},
        {"overlap_cbm_cbm_um", "um", "deepest overlap of two spheres"},
        {"overlap_dcm_vessels_um", "um", "deepest overlap of a deformable cell with a vessel"},
        {"overlap_cbm_vessels_um", "um", "deepest overlap of a sphere with a vessel"},
@@ -45,14 +49,16 @@ List tissue() {
        {"overlap_dcm_walls_um", "um", "deepest overlap of a deformable cell with a wall"},
        {"overlap_cbm_walls_um", "um", "deepest overlap of a sphere with a wall"},
        {"detached_cells", "1", "cells in contact with no other cell"},
-       {"cells_in_small_clusters", "1", "cells that hang together in clusters of 1 or 2"},
+       {"cells_in_small_clusters", "1", "cells in clusters of one or two cells"},
        {"clusters", "1", "clusters of cells in contact, single cells included"},
        {"interface_pairs", "1", "pairs of a deformable cell and a sphere that exert a force"},
-       {"interface_force_nN", "nN", "sum over those pairs of the size of their force"},
+       {"interface_force_nN", "nN",
+        "sum over pairs of a deformable cell and a sphere of the magnitude of their force"},
        {"interface_residual", "1",
-        "what their forces and torques, spread over nodes and spheres, leave, over the sum of "
-        "their sizes"},
-       {"vessels_force_nN", "nN", "normal force of the cells on the vessels, pressing positive"},
+        "resultant of the forces and torques of those pairs over the sum of their magnitudes; 0 in "
+        "balance"},
+       {"vessels_force_nN", "nN",
+        "sum of the normal forces of the cells on the vessels, compression positive"},
        {"vessels_net_x_nN", "nN", "net normal force on the vessels along x"},
        {"vessels_net_y_nN", "nN", "net normal force on the vessels along y"},
        {"vessels_net_z_nN", "nN", "net normal force on the vessels along z"}});
@@ -75,8 +81,8 @@ std::string name_in_columns(std::string name) {
 
 std::vector<Observable> wall_observables(const std::string& wall) {
   const std::string name = "wall_" + name_in_columns(wall);
-  List list{
-      {name + "_force_nN", "nN", "normal force of the cells on this wall, pressing positive"}};
+  List list{{name + "_force_nN", "nN",
+             "sum of the normal forces of the cells on this wall, compression positive"}};
   for (const char axis : {'x', 'y', 'z'})
     append(list, {{fmt::format("{}_net_{}_nN", name, axis), "nN",
                    fmt::format("net normal force on this wall along {}", axis)}});

@@ -48,10 +48,10 @@ double innermost_layer(const Snapshot& s, bool deformable, double sign) {
 
 std::vector<Observable> patch_columns() {
   return {{"box_length_um", "um", "distance of the walls across x"},
-          {"pressure_dcm_Pa", "Pa", "mean contact pressure of the deformable half; 0 without"},
-          {"pressure_cbm_Pa", "Pa", "mean contact pressure of the half of spheres; 0 without"},
-          {"density_dcm_per_mm3", "1/mm^3", "density of the deformable half; 0 without"},
-          {"density_cbm_per_mm3", "1/mm^3", "density of the half of spheres; 0 without"}};
+          {"pressure_dcm_Pa", "Pa", "mean contact pressure of the deformable half; 0 without any"},
+          {"pressure_cbm_Pa", "Pa", "mean contact pressure of the half of spheres; 0 without any"},
+          {"density_dcm_per_mm3", "1/mm^3", "density of the deformable half; 0 without any"},
+          {"density_cbm_per_mm3", "1/mm^3", "density of the half of spheres; 0 without any"}};
 }
 
 void sample_patch(const ObservedFrame& frame, ObservedRun& observed) {

@@ -34,9 +34,10 @@ std::vector<Observable> plates_columns() {
       {"gap_um", "um", "distance of the plates"},
       {"force_nN", "nN", "normal force on a plate, mean of the two"},
       {"contact_radius_um", "um",
-       "radius of a circle as large as the area in touch with a plate, mean of the two"},
-      {"cytosol_pressure_Pa", "Pa", "pressure within the cell"},
-      {"shell_force_nN", "nN", "force on a thin shell that keeps its volume, at this distance"}};
+       "radius of a circle with the area of contact with a plate, mean of the two"},
+      {"cytosol_pressure_Pa", "Pa", "cytosol pressure of the cell"},
+      {"shell_force_nN", "nN",
+       "force on a thin shell of constant volume between plates at this distance (closed form)"}};
 }
 
 void sample_plates(const ObservedFrame& f, ObservedRun& observed) {

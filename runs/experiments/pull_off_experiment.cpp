@@ -48,14 +48,17 @@ void check_pull_off(const Scene& scene, Report& report) {
 }
 
 std::vector<Observable> pull_off_columns() {
-  return {{"pull_force_nN", "nN", "force that pulls the two cells apart, mean of the two"},
-          {"pull_force_relative", "1", "the same over pi W R1 R2 / (R1 + R2), that of vesicles"},
-          {"distance_um", "um", "distance of their centres"},
-          {"contact_area_um2", "um^2", "area in contact, half of it from either cell"},
-          {"contact_radius_um", "um", "radius of a circle as large"},
-          {"tension_outside_mN_m", "mN/m", "mean tension of the surface out of contact"},
-          {"tension_contact_mN_m", "mN/m", "the same in contact; 0 without contact"},
-          {"tension_contact_min_mN_m", "mN/m", "least tension in contact; 0 without contact"}};
+  return {
+      {"pull_force_nN", "nN", "force that pulls the two cells apart, mean of the two"},
+      {"pull_force_relative", "1",
+       "that force over pi W R1 R2 / (R1 + R2), the pull-off force of vesicles"},
+      {"distance_um", "um", "distance of the centres of the two cells"},
+      {"contact_area_um2", "um^2", "area of contact, mean of the two cells"},
+      {"contact_radius_um", "um", "radius of a circle with the area of contact"},
+      {"tension_outside_mN_m", "mN/m", "mean surface tension outside the contact"},
+      {"tension_contact_mN_m", "mN/m", "mean surface tension in the contact; 0 without contact"},
+      {"tension_contact_min_mN_m", "mN/m",
+       "smallest surface tension in the contact; 0 without contact"}};
 }
 
 void sample_pull_off(const std::vector<coupling::Pull>& pulls, const ObservedFrame& f,

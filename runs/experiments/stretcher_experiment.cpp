@@ -28,10 +28,10 @@ void check_stretcher_block(const Scene& scene, Report& report) {
 
 std::vector<Observable> stretcher_columns() {
   return {{"long_axis_um", "um", "extent of the cell along the beams"},
-          {"short_axis_um", "um", "mean extent across them"},
-          {"long_axis_strain", "1", "growth of the former since the first frame, relative"},
-          {"short_axis_strain", "1", "the same of the latter"},
-          {"stress_Pa", "Pa", "stress where the axis of the beams meets the cell"},
+          {"short_axis_um", "um", "mean extent of the cell across the beams"},
+          {"long_axis_strain", "1", "relative change of the long axis since the first frame"},
+          {"short_axis_strain", "1", "relative change of the short axis since the first frame"},
+          {"stress_Pa", "Pa", "optical stress where the axis of the beams meets the cell"},
           {"cortex_friction_factor", "1", "friction of the cortex over that of the cell type"}};
 }
 

@@ -34,8 +34,9 @@ void check_tear(const Scene& scene, Report& report) {
 
 std::vector<Observable> tear_columns() {
   return {{"tear_force_nN", "nN", "force that pulls the halves apart, mean of the two"},
-          {"separation_um", "um", "distance of the pulled cells of both halves, of their means"},
-          {"tear_work_fJ", "fJ", "work of that force since it last began to pull"}};
+          {"separation_um", "um",
+           "distance between the mean positions of the pulled cells of the two halves"},
+          {"tear_work_fJ", "fJ", "work of the force since it last began to pull"}};
 }
 
 /// Force on a half, nN, and mean place of its pulled cells along the line, um.

@@ -1,0 +1,91 @@
+#include "runs/experiments/explain_observables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <regex>
+#include <vector>
+
+#include "runs/experiments/experiment.hpp"
+#include "runs/experiments/observables.hpp"
+#include "runs/scene/choices.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// Observables of one kind of scene.
+struct ObservableSection {
+  std::string experiment;  ///< value of the scene key; empty: every scene
+  std::string meaning;
+  std::vector<Observable> observables;
+};
+
+/// Numbered shells and layers by a placeholder, "shell_<k>_cells", each once.
+std::vector<Observable> without_numbers(const std::vector<Observable>& list) {
+  static const std::regex in_name("_[0-9]+(?=_|$)"), in_text("\\b[0-9]+\\b");
+  std::vector<Observable> out;
+  for (Observable o : list) {
+    const std::string name = std::regex_replace(o.name, in_name, "_<k>");
+    if (name != o.name) o.meaning = std::regex_replace(o.meaning, in_text, "k");
+    o.name = name;
+    if (std::ranges::find(out, name, &Observable::name) == out.end()) out.push_back(o);
+  }
+  return out;
+}
+
+std::vector<ObservableSection> make_sections() {
+  std::vector<Observable> common = known_observables(Experiment::kFree);
+  const auto n_common = static_cast<std::ptrdiff_t>(common.size());
+  common.insert(common.begin(), {"time", "s", "time after t = 0; negative in a start-up"});
+  std::vector<ObservableSection> sections{
+      {"", "every scene", common},
+      {"", "each wall, capsule and static mesh, by its name", wall_observables("<name>")}};
+  const std::vector<std::string> names = split_choices(kChoices<Experiment>);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto experiment = static_cast<Experiment>(k);
+    const std::vector<Observable> all = known_observables(experiment);
+    sections.push_back({names[k], experiment_row(experiment).meaning,
+                        without_numbers({std::next(all.begin(), n_common), all.end()})});
+  }
+  std::erase_if(sections, [](const ObservableSection& s) { return s.observables.empty(); });
+  return sections;
+}
+
+}  // namespace
+
+std::string explain_observables() {
+  std::string text;
+  for (const ObservableSection& section : make_sections()) {
+    text += section.experiment.empty()
+                ? fmt::format("{}\n", section.meaning)
+                : fmt::format("experiment = {}: {}\n", section.experiment, section.meaning);
+    for (const Observable& o : section.observables)
+      text += fmt::format("  {:38}  {:6}  {}\n", o.name, o.unit, o.meaning);
+  }
+  return text;
+}
+
+std::string explain_observables_markdown() {
+  std::string text =
+      "# Observables\n\n"
+      "Printed by `acinus explain --observables --markdown`; a test compares this page with the "
+      "program.\n\n"
+      "A run writes one value of each observable per frame: into the table `/observables` of the "
+      "[run file](run_file.md), and into `measures` of `summary.json`. "
+      "[Studies](../howto/study.md) "
+      "plot them and test claims on them. The scene key `experiment` decides which a run has. Unit "
+      "1: no unit. A mean over no cells is 0 in the table and null in `summary.json`. `<k>` stands "
+      "for a number.\n";
+  for (const ObservableSection& section : make_sections()) {
+    text += section.experiment.empty() ? fmt::format("\n## Of {}\n\n", section.meaning)
+                                       : fmt::format("\n## Experiment {}\n\nMeasures the {}.\n\n",
+                                                     section.experiment, section.meaning);
+    text += "| name | unit | definition |\n|---|---|---|\n";
+    for (const Observable& o : section.observables)
+      text += fmt::format("| `{}` | {} | {} |\n", o.name, o.unit, o.meaning);
+  }
+  return text;
+}
+
+}  // namespace acinus::runs
