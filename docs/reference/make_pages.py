@@ -115,7 +115,7 @@ def section(program, words):
     if words[0] in MORE and len(words) == 1:
         lines[-1] += f" More: [{MORE[words[0]].split('/')[-1].split('#')[0]}]({MORE[words[0]]})."
     example = re.search(r"^Example: (.*?)\s*\Z", text, re.M | re.S)
-    usage = re.search(r"^Usage: (.*)$", text, re.M).group(1)
+    usage = re.search(r"^Usage: (.*)$", text, re.M).group(1).replace(" [OPTIONS]", "").replace("[", "").replace("]", "")
     lines += ["", f"    {usage}", ""]
     for heading, title in (("Positionals", "argument"), ("Options", "option")):
         rows = [row_of(*entry) for entry in entries_of(text, heading) if "--help" not in entry[0]]

@@ -37,7 +37,7 @@ std::vector<Observable> without_numbers(const std::vector<Observable>& list) {
 std::vector<ObservableSection> make_sections() {
   std::vector<Observable> common = known_observables(Experiment::kFree);
   const auto n_common = static_cast<std::ptrdiff_t>(common.size());
-  common.insert(common.begin(), {"time", "s", "time after t = 0; negative in a start-up"});
+  common.insert(common.begin(), {"time", "s", "time after t = 0"});
   std::vector<ObservableSection> sections{
       {"", "every scene", common},
       {"", "each wall, capsule and static mesh, by its name", wall_observables("<name>")}};
