@@ -1,15 +1,18 @@
 #include "bench/bench.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <ctime>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "acinus_version.hpp"
 #include "bench/output/bench_table.hpp"
+#include "bench/output/result_file.hpp"
 #include "bench/output/speed_index.hpp"
 #include "bench/step/assembly.hpp"
 #include "bench/step/nucleus_cost.hpp"
@@ -66,6 +69,27 @@ const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
   return all;
 }
 
+/// @param speed_index  before and after the measurement, ms
+void write_json(const std::string& file, const std::string& name, const ResultOrigin& origin,
+                const std::pair<double, double>& speed_index, const BenchTable& table) {
+  Json j = {{"name", name},
+            {"commit", origin.commit},
+            {"machine", origin.machine},
+            {"instruction_set", origin.instruction_set},
+            {"threads", origin.threads},
+            {"speed_index_ms", {speed_index.first, speed_index.second}},
+            {"rows", Json::array()}};
+  for (const BenchRow& row : table) {
+    Json r = {{"case", row.name}, {"cells", row.cells}};
+    for (const auto& [key, value] : row.value) r[key] = value;
+    j["rows"].push_back(r);
+  }
+  std::ofstream out(file);
+  out << j.dump(2) << '\n';
+  out.close();
+  check(out.good(), file + ": cannot be written. Choose another file.", Exit::kFileError);
+}
+
 }  // namespace
 
 std::vector<std::string> list_benches() {
@@ -89,35 +113,35 @@ int run_bench(const std::string& name, const BenchOptions& options) {
   const int threads = options.threads > 0 ? options.threads : processor_count();
   set_threads(threads);
   const Machine machine = describe_machine();
+  const ResultOrigin origin{describe_command(name, options, threads),
+                            ACINUS_GIT,
+                            machine.cpu_model,
+                            machine.instruction_set,
+                            threads,
+                            fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)))};
+  const std::string csv_file = runs::together(ranks, [&] {
+    const bool writes = !options.csv_file.empty() && ranks.is_root();
+    return writes ? prepare_result_file(options.csv_file, origin) : std::string();
+  });
   if (ranks.is_root())
     fmt::print("{}  commit {}  {}  {}  {} threads; CPU time, medians of repetitions\n", name,
-               ACINUS_GIT, machine.cpu_model, machine.instruction_set, threads);
+               origin.commit, origin.machine, origin.instruction_set, threads);
   const double index_before = measure_speed_index();
   const BenchTable table = found->second(options);
   const double index_after = measure_speed_index();
-  if (ranks.is_root())
-    fmt::print("speed index (CPU time of a fixed loop): {:.3g} ms before, {:.3g} ms after\n",
-               index_before, index_after);
   const bool passed = std::ranges::all_of(table, &BenchRow::passed);
   const int code = static_cast<int>(passed ? Exit::kDone : Exit::kInternal);
-  if (options.json_file.empty() || !ranks.is_root()) return code;
-  Json j = {{"name", name},
-            {"commit", ACINUS_GIT},
-            {"machine", machine.cpu_model},
-            {"instruction_set", machine.instruction_set},
-            {"threads", threads},
-            {"speed_index_ms", {index_before, index_after}},
-            {"rows", Json::array()}};
-  for (const BenchRow& row : table) {
-    Json r = {{"case", row.name}, {"cells", row.cells}};
-    for (const auto& [key, value] : row.value) r[key] = value;
-    j["rows"].push_back(r);
+  if (!ranks.is_root()) return code;
+  fmt::print("speed index (CPU time of a fixed loop): {:.3g} ms before, {:.3g} ms after\n",
+             index_before, index_after);
+  if (!csv_file.empty()) {
+    append_results(csv_file, origin, table);
+    append_results(csv_file, origin,
+                   {{.name = "speed index, CPU time of a fixed loop",
+                     .value = {{"before_ms", index_before}, {"after_ms", index_after}}}});
   }
-  std::ofstream out(options.json_file);
-  out << j.dump(2) << '\n';
-  out.close();
-  check(out.good(), options.json_file + ": cannot be written. Choose another file.",
-        Exit::kFileError);
+  if (!options.json_file.empty())
+    write_json(options.json_file, name, origin, {index_before, index_after}, table);
   return code;
 }
 

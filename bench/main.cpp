@@ -27,9 +27,12 @@ int run(int argc, char** argv) {
   std::string name;
   BenchOptions options;
   CLI::App app("Measures speed and error; without NAME, lists the names.", "acinus bench");
-  app.footer("Example: acinus bench dcm27 --json dcm27.json");
+  app.footer("Example: acinus bench dcm27 --threads 1 --csv results.csv");
   app.add_option("NAME", name, "benchmark");
   app.add_option("--json", options.json_file, "also write the rows here")->type_name("FILE");
+  app.add_option("--csv", options.csv_file,
+                 "also append the rows to this result file; a folder: to DATE_MACHINE.csv in it")
+      ->type_name("FILE");
   app.add_option("--threads", options.threads, "threads (default: all cores)")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));

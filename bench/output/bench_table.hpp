@@ -10,16 +10,19 @@ namespace acinus::bench {
 /// Options of all benchmarks.
 struct BenchOptions {
   std::string json_file;  ///< JSON file for the rows; "" = none
-  std::string folder;     ///< folder for plots and scenes; "" = none
-  int threads = 0;        ///< 0 = all cores
-  int seeds = 3;          ///< number of random repetitions
-  int first = 1;          ///< seed of the first repetition
-  bool life = false;      ///< growth, division and death in random scenes
-  double radius = 12;     ///< of the cells in tests of stiffness laws, um
-  double stiffness = 1;   ///< factor on the moduli of these cells
+  std::string
+      csv_file;        ///< result file, or folder of result files, to append the rows to; "" = none
+  std::string folder;  ///< folder for plots and scenes; "" = none
+  int threads = 0;     ///< 0 = all cores
+  int seeds = 3;       ///< number of random repetitions
+  int first = 1;       ///< seed of the first repetition
+  bool life = false;   ///< growth, division and death in random scenes
+  double radius = 12;  ///< of the cells in tests of stiffness laws, um
+  double stiffness = 1;  ///< factor on the moduli of these cells
 };
 
-/// Row of a table: a case with its figures. Names of figures are the keys of the JSON rows.
+/// Row of a table: a case with its figures. Names of figures are those of JSON and
+/// result files and end in their unit (result_file.hpp).
 struct BenchRow {
   std::string name;
   int cells = 0;

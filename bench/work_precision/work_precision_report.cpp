@@ -19,6 +19,11 @@ std::string name_space(const Discretisation& d) {
   return fmt::format("{} nodes, {}", d.nodes, d.quadrature);
 }
 
+double cg_per_step(const PrecisionOutcome& e) {
+  return static_cast<double>(e.cg_iterations) /
+         static_cast<double>(std::max<std::int64_t>(e.steps, 1));
+}
+
 /// Name of a step setting: "60 s", "up to 60 s for 0.01 um".
 std::string name_step(const PrecisionSetting& s) {
   return s.adaptive ? fmt::format("up to {:g} s for {:g} um", s.step, s.tolerance)
@@ -87,9 +92,7 @@ std::string table_line(const WorkScene& scene, const PrecisionOutcome& e) {
       "| {}{}{} | {}{} | {:g} | {:.3g} | {} | {:.1f} |", coupling::name_of(s.integrator),
       s.extrapolate ? ", extrapolated" : "", s.adaptive ? ", adaptive" : "",
       scene.deformable ? fmt::format("{} | {} | ", s.space.nodes, s.space.quadrature) : "",
-      name_step(s), s.cg_tolerance, e.cpu, e.steps,
-      static_cast<double>(e.cg_iterations) /
-          static_cast<double>(std::max<std::int64_t>(e.steps, 1)));
+      name_step(s), s.cg_tolerance, e.cpu, e.steps, cg_per_step(e));
   if (!e.failure.empty()) return out + fmt::format(" failed: {} |\n", e.failure);
   if (measures_strain(scene))
     return out + fmt::format(" {:.3g} | {:.3g} | {:.2g} |\n", 100 * e.error.strain,
@@ -148,7 +151,8 @@ BenchRow bench_row(const WorkScene& scene, const std::string& study, const Preci
                 {"failed", e.failure.empty() ? 0.0 : 1.0},
                 {"steps", static_cast<double>(e.steps)},
                 {"rejected", static_cast<double>(e.rejected)},
-                {"cg_iterations", static_cast<double>(e.cg_iterations)}}};
+                {"cg_iterations", static_cast<double>(e.cg_iterations)},
+                {"cg_iterations_per_step", cg_per_step(e)}}};
   if (!e.failure.empty()) return row;
   row.value.insert(row.value.end(), {{"pressure_error", r.pressure},
                                      {"volume_error", r.volume},
