@@ -94,11 +94,18 @@ TEST(UnitOfFigure, IsTheEndOfItsName) {
 }
 
 TEST(DescribeCommand, NamesWhatDiffersFromTheDefaults) {
-  EXPECT_EQ(describe_command("dcm27", {.json_file = "a", .csv_file = "b"}, 2),
-            "acinus bench dcm27 --threads 2");
-  EXPECT_EQ(describe_command("stress", {.seeds = 1, .first = 53, .life = true}, 1),
+  BenchOptions options;
+  options.csv_file = "results.csv";
+  EXPECT_EQ(describe_command("dcm27", options, 2), "acinus bench dcm27 --threads 2");
+  options.first = 53;
+  options.seeds = 1;
+  options.life = true;
+  EXPECT_EQ(describe_command("stress", options, 1),
             "acinus bench stress --threads 1 --seeds 1 --first 53 --life");
-  EXPECT_EQ(describe_command("out-of-sample", {.radius = 9.5, .stiffness = 0.5}, 1),
+  options = {};
+  options.radius = 9.5;
+  options.stiffness = 0.5;
+  EXPECT_EQ(describe_command("out-of-sample", options, 1),
             "acinus bench out-of-sample --threads 1 --radius 9.5 --stiffness 0.5");
 }
 
