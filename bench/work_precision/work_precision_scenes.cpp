@@ -67,7 +67,7 @@ WorkCase stretch_case() {
   const Vec3 axis = Vec3::UnitZ();
   WorkCase c;
   c.scene = {.name = "stretch",
-             .title = "one stretched cell in a liquid, let go",
+             .title = "one stretched cell in a liquid, released",
              .text =
                  [](const Discretisation& d) {
                    return fmt::format(
