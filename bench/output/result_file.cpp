@@ -126,7 +126,7 @@ std::string unit_of_figure(std::string_view figure) {
 }
 
 std::string prepare_result_file(const std::string& path, const ResultOrigin& origin) {
-  std::error_code ignored;  // opening the file tells
+  std::error_code ignored;  // opening the file reports it
   const std::string file =
       fs::is_directory(path, ignored)
           ? (fs::path(path) / fmt::format("{}_{}.csv", origin.date, name_for_file(origin.machine)))
