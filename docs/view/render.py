@@ -5,22 +5,18 @@
 
 Deformable cells are drawn as smooth surfaces, centre-based cells as spheres of their radius,
 vessels and walls in translucent red. --clip removes the half nearer to the camera and closes the
-cut cells. Needs the Debian packages python3-vtk9 and python3-h5py, and xvfb where there is no
+cut cells. The projection is parallel: the scale bar holds everywhere in the picture. Needs the Debian packages python3-vtk9 and python3-h5py, and xvfb where there is no
 screen. Reads run.vtkhdf itself, not through VTK's readers: Debian 12's shows all frames at once.
 """
 import argparse
-import os
-import shutil
 import sys
 
 sys.dont_write_bytecode = True  # no __pycache__ in the source tree
-from painter import KIND_COLOR, Painter
+from display import ensure_display
+from labels import INK, STRIP, VESSEL_COLOR, add_background, add_bar, add_labels, add_scale_bar, add_values
+from painter import Painter
 from run_frame import CBM, DCM, NUCLEUS, VESSEL, Frame, UserError
 
-KIND_NAME = {DCM: "deformable (DCM)", CBM: "centre-based (CBM)"}
-VESSEL_COLOR = (0.80, 0.10, 0.12)
-INK = (0.13, 0.15, 0.19)
-STRIP = 0.16  # of the width, for the colour bar
 # Direction from the picture's centre to the camera, and what is up.
 CAMERA = {"iso": ((1.0, -1.35, 0.85), (0, 0, 1)), "top": ((0, 0, 1), (0, 1, 0)),
           "side": ((0, -1, 0), (0, 0, 1))}
@@ -41,23 +37,17 @@ def read_arguments():
     parser.add_argument("--only", nargs="+", type=int, default=[], metavar="ID",
                         help="draw these cells only")
     parser.add_argument("--camera", choices=CAMERA, default="iso")
-    parser.add_argument("--zoom", type=float, default=1.0)
+    parser.add_argument("--zoom", type=float, default=1.0, help="1 (default): everything fits")
+    parser.add_argument("--font", type=float, default=1.0, help="factor of the size of the letters")
+    parser.add_argument("--width", type=float, metavar="UM",
+                        help="of the picture, um, in place of --zoom: pictures of equal scale")
+    parser.add_argument("--center", choices=("all", "cells"), default="all",
+                        help="what is in the middle of the picture (default: all)")
     parser.add_argument("--size", default="1600x1200", help="WIDTHxHEIGHT in pixels")
     parser.add_argument("--show", nargs="+", default=[], metavar="NAME[=TEXT]",
                         help="write the values of these observables below the cells")
-    parser.add_argument("--no-labels", action="store_true", help="without colour bar and time")
+    parser.add_argument("--no-labels", action="store_true", help="without colour bar, scale bar and time")
     return parser.parse_args()
-
-
-def ensure_display():
-    """VTK of Debian 12 draws only through X: without a screen, start again on a virtual one."""
-    if os.environ.get("DISPLAY") or os.environ.get("ACINUS_RENDER_CHILD"):
-        return
-    if shutil.which("xvfb-run") is None:
-        raise UserError("no screen and no xvfb-run: install the package xvfb")
-    os.environ["ACINUS_RENDER_CHILD"] = "1"
-    screen = ["xvfb-run", "-a", "-s", "-screen 0 640x480x24"]
-    os.execvp(screen[0], screen + [sys.executable, os.path.abspath(__file__)] + sys.argv[1:])
 
 
 def make_poly(points, triangles):
@@ -279,81 +269,6 @@ def add_vessels(renderer, frame, plane):
     add_actor(renderer, poly, opacity=0.45, color=VESSEL_COLOR)
 
 
-def style_text(text, size, bold=False):
-    text.SetColor(*INK)
-    text.SetFontFamilyToArial()
-    text.SetFontSize(size)
-    text.ShadowOff()
-    text.ItalicOff()
-    text.SetBold(bold)
-
-
-def add_background(renderer):
-    renderer.SetBackground(0.86, 0.88, 0.91)
-    renderer.SetBackground2(1.0, 1.0, 1.0)
-    renderer.GradientBackgroundOn()
-
-
-def add_bar(window, painter, height):
-    """The colour bar on a strip of its own at the right, so that it covers no cell."""
-    import textwrap
-    import vtk
-    strip = vtk.vtkRenderer()
-    strip.SetViewport(1 - STRIP, 0, 1, 1)
-    add_background(strip)
-    bar = vtk.vtkScalarBarActor()
-    bar.SetLookupTable(painter.table)
-    name = textwrap.fill(painter.name.replace("_", " "), 14)
-    bar.SetTitle(f"{name}\n[{painter.unit}]\n ")
-    bar.SetNumberOfLabels(5)
-    bar.SetLabelFormat("%-#.3g")
-    bar.UnconstrainedFontSizeOn()
-    style_text(bar.GetTitleTextProperty(), height // 42)
-    style_text(bar.GetLabelTextProperty(), height // 48)
-    bar.SetPosition(0.27, 0.28)
-    bar.SetWidth(0.46)
-    bar.SetHeight(0.48)
-    strip.AddActor2D(bar)
-    window.AddRenderer(strip)
-
-
-def add_values(renderer, frame, wanted, height):
-    """The observables asked for, one line each, at the lower left, above the names of the kinds."""
-    import vtk
-    lines = []
-    for name, _, text in (entry.partition("=") for entry in wanted):
-        lines.append(f"{text or name.replace('_', ' ')} {frame.value_of(name):.2f}")
-    values = vtk.vtkTextActor()
-    values.SetInput("\n".join(lines))
-    style_text(values.GetTextProperty(), height // 24, bold=True)
-    values.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
-    values.SetPosition(0.03, 0.14)
-    renderer.AddActor2D(values)
-
-
-def add_labels(renderer, frame, painter, height):
-    import vtk
-    label = vtk.vtkTextActor()
-    seconds = frame.time
-    text = f"t = {seconds:.3g} s" if abs(seconds) < 600 else f"t = {seconds / 3600:.1f} h"
-    label.SetInput(text if abs(seconds) < 5 * 86400 else f"t = {seconds / 86400:.1f} d")
-    style_text(label.GetTextProperty(), height // 30, bold=True)
-    label.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
-    label.SetPosition(0.03, 0.93)
-    renderer.AddActor2D(label)
-    if painter.name == "kind":
-        import numpy as np
-        shown = [k for k in (DCM, CBM) if np.any(frame.kind == k)]
-        for i, k in enumerate(shown):
-            entry = vtk.vtkTextActor()
-            entry.SetInput("\u25cf " + KIND_NAME[k])
-            style_text(entry.GetTextProperty(), height // 38, bold=True)
-            entry.GetTextProperty().SetColor(*(0.85 * c for c in KIND_COLOR[k]))
-            entry.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
-            entry.SetPosition(0.03, 0.09 - 0.045 * i)
-            renderer.AddActor2D(entry)
-
-
 def shade_corners(renderer, frame):
     """Ambient occlusion: less light where cells meet, so that shapes read without hard shadows."""
     import vtk
@@ -369,32 +284,38 @@ def shade_corners(renderer, frame):
     renderer.SetPass(occlusion)
 
 
-def reach_across(renderer):
-    """How far the bodies reach to either side: 1 is the rim of the window, as it is placed now."""
-    bounds = [actor.GetBounds() for actor in renderer.GetActors()]
-    reach = 0.0
-    for b in bounds:
+def reach(renderer):
+    """How far the bodies reach to either side, and up or down: 1 is the rim of the window, as it is placed now."""
+    across, up = 1e-9, 1e-9
+    for b in (actor.GetBounds() for actor in renderer.GetActors()):
         for i in range(8):
             renderer.SetWorldPoint(b[i & 1], b[2 + (i >> 1 & 1)], b[4 + (i >> 2)], 1)
             renderer.WorldToView()
-            reach = max(reach, abs(renderer.GetViewPoint()[0]))
-    return reach
+            across, up = max(across, abs(renderer.GetViewPoint()[0])), max(up, abs(renderer.GetViewPoint()[1]))
+    return across, up
 
 
-def place_camera(renderer, arguments, strip):
-    """The bodies in the middle of what a strip at the right leaves of the window, and where need be
-    smaller by as much as it takes away."""
+def place_camera(renderer, frame, arguments, strip):
+    """All bodies within what a strip at the right leaves of the window."""
     direction, up = CAMERA[arguments.camera]
     camera = renderer.GetActiveCamera()
     camera.SetFocalPoint(0, 0, 0)
     camera.SetPosition(*direction)
     camera.SetViewUp(*up)
-    camera.SetViewAngle(24)
+    camera.ParallelProjectionOn()
     renderer.ResetCamera()
-    camera.Zoom(1.45 * arguments.zoom)
-    if strip > 0:
-        camera.Zoom(min(1.0, max(1 - strip, (1 - strip) / max(reach_across(renderer), 1e-9))))
-        camera.SetWindowCenter(strip, 0)
+    if arguments.center == "cells":
+        points = frame.point[frame.own_points()]
+        middle = (points.min(axis=0) + points.max(axis=0)) / 2
+        camera.SetPosition(*(float(m + p - f) for m, p, f in zip(middle, camera.GetPosition(), camera.GetFocalPoint())))
+        camera.SetFocalPoint(*middle.astype(float))
+    across, up = reach(renderer)
+    fit = min(0.95 * (1 - strip) / across, 0.86 / up)
+    camera.Zoom(min(fit * arguments.zoom, (1 - strip) / across) if strip > 0 else fit * arguments.zoom)
+    if arguments.width:
+        width_px, height_px = renderer.GetRenderWindow().GetSize()
+        camera.SetParallelScale(0.5 * arguments.width * height_px / width_px)
+    camera.SetWindowCenter(strip, 0)
     renderer.ResetCameraClippingRange()
 
 
@@ -429,13 +350,16 @@ def draw(arguments):
     renderer.SetMaximumNumberOfPeels(8)
     renderer.SetOcclusionRatio(0.01)
     has_bar = painter.table is not None and not arguments.no_labels
-    place_camera(renderer, arguments, STRIP if has_bar else 0)
+    strip = STRIP if has_bar else 0
+    letter = int(arguments.font * 2 * max(height, 0.6 * width) / 27)  # pixels of the window
+    place_camera(renderer, frame, arguments, strip)
     if not arguments.no_labels:
-        add_labels(renderer, frame, painter, 2 * height)
+        add_labels(renderer, frame, painter, letter)
+        add_scale_bar(renderer, strip, letter)
     if arguments.show:
-        add_values(renderer, frame, arguments.show, 2 * height)
+        add_values(renderer, frame, arguments.show, letter)
     if has_bar:
-        add_bar(window, painter, 2 * height)
+        add_bar(window, painter, letter)
     window.Render()
     grab = vtk.vtkWindowToImageFilter()
     grab.SetInput(window)
@@ -455,7 +379,7 @@ def draw(arguments):
 def main():
     arguments = read_arguments()
     try:
-        ensure_display()
+        ensure_display(__file__)
         draw(arguments)
     except UserError as error:
         print(f"render.py: {error}", file=sys.stderr)
