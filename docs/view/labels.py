@@ -86,7 +86,7 @@ def scale_length(width):
     """Length of a scale bar, um: 1, 2 or 5 times a power of ten, at most a fifth of the width."""
     import math
     power = 10.0 ** math.floor(math.log10(0.2 * width))
-    return max(m * power for m in (1, 2, 5) if m * power <= 0.2 * width)
+    return max(m * power for m in (0.5, 1, 2, 5) if m * power <= 0.2 * width)
 
 
 def add_scale_bar(renderer, strip, letter):

@@ -56,9 +56,19 @@ for zoom in ("0.5", "3"):
 assert (pictures[0] != pictures[1]).any() and strips[0].std() > 5
 assert (strips[0] == strips[1]).all(), "the cells reach into the colour bar"
 
-# Zero is white in a range that is not symmetric, and values as far from it are as strong.
+# The scale bar is as long as it says: 20 of 100 um are a fifth of the width.
 sys.dont_write_bytecode = True  # no __pycache__ in the source tree
 sys.path.insert(0, os.path.dirname(script))
+from labels import scale_length  # noqa: E402
+assert [scale_length(width) for width in (100, 99, 49, 26, 5, 0.003)] == [20, 10, 5, 5, 1, 0.0005]
+out = os.path.join(sample, "scaled.png")
+for camera in ("iso", "top"):
+    done = draw("0", out, "--color", "kind", "--camera", camera, "--width", "100")
+    assert done.returncode == 0, done.stderr
+    row = pixels_of(out)[round(0.04 * 240), int(0.7 * 320):]
+    assert abs((row.max(axis=1) < 230).sum() - 64) <= 2, row.max(axis=1)
+
+# Zero is white in a range that is not symmetric, and values as far from it are as strong.
 from painter import color_table  # noqa: E402
 uneven, even = color_table(-1, 3), color_table(-3, 3)
 for value in (-1, -0.5, 0, 1, 2.9):
