@@ -149,17 +149,22 @@ def regeneration_frames(runs):
     rows = [("dcm_I", "deformable\nModel I"), ("dcm_III", "deformable\nModel III, 0.3 nN"), ("dcm_III_1nN", "deformable\nModel III, 1 nN"),
             ("cbm_III", "plain spheres\nModel III, 0.3 nN"), ("cal_e_III", "calibrated spheres\nModel III, 0.3 nN")]
     days = (0, 1, 2, 3, 4, 6, 10)
-    sheet = Sheet(160 + 280 * len(days), 50 + 230 * len(rows) + 90)
+    sheet = Sheet(160 + 280 * len(days), 50 + 270 * len(rows) + 90)
     for k, day in enumerate(days):
         sheet.text(160 + 280 * k + 140, 24, f"day {day}", 18, bold=True, align="center")
     for i, (name, label) in enumerate(rows):
-        run = study_run(runs, name, 1)
-        sheet.text(10, 50 + 230 * i + 115, label, 15)
+        run, top = study_run(runs, name, 1), 50 + 270 * i
+        sheet.text(10, top + 130, label, 15)
         for k, day in enumerate(days):
-            if day * 86400 <= read_times(run)[-1] + 3600:
-                sheet.picture(run, frame_at(run, 86400 * day), FROM_ABOVE, 160 + 280 * k, 50 + 230 * i, 270, 225, 300)
+            if day * 86400 > read_times(run)[-1] + 3600:
+                continue
+            frame, left = frame_at(run, 86400 * day), 160 + 280 * k
+            sheet.picture(run, frame, FROM_ABOVE, left, top, 270, 262, 295)
+            shown = Frame(run, str(frame))
+            for line, (word, area) in enumerate((("nearest", "lesion_area_relative"), ("flooded", "lesion_area_flooded"))):
+                sheet.text(left + 5, top + 215 + 18 * line, f"{word} {shown.value_of(area):.2f}", 14)
     sheet.legend(["deformable", "sphere", "vessel"], 20, sheet.height - 70)
-    sheet.scale(300, 270, sheet.width - 20, sheet.height - 20)
+    sheet.scale(295, 270, sheet.width - 20, sheet.height - 20)
     sheet.save(IMAGES / "regeneration_frames.png")
 
 
