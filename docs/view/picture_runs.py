@@ -11,6 +11,7 @@ SHORT = {
     "clump13": "clump13",
     "lobule_cbm": "lobule_cbm",
     "lobule_hybrid": "lobule_hybrid",
+    "lobule_start": "lobule_dcm --until \"1 s\"",
     "monolayer_type1": "monolayer_type1 --until-cells 100",
     "monolayer_type2": "monolayer_type2 --until-cells 100",
     "monolayer_type3": "monolayer_type3 --until-cells 100",

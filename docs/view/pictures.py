@@ -15,10 +15,12 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import tempfile
 
 sys.dont_write_bytecode = True  # no __pycache__ in the source tree
 from display import ensure_display
 from film import draw
+from labels import VESSEL_COLOR
 from picture_runs import Runs
 from picture_sheet import Sheet
 from run_frame import Frame, UserError, read_times
@@ -169,6 +171,53 @@ def regeneration_frames(runs):
 
 
 CYTOSOL = ["--color", "cytosol_pressure", "--range"]
+def call(runs, *words):
+    done = subprocess.run([runs.program, *words], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise UserError(f"acinus {' '.join(words)}: exit code {done.returncode}: {done.stderr.strip()[-500:]}")
+
+
+def imported(runs):
+    """A slice of a label image, and the tissue that is imported from it."""
+    import numpy as np
+    from PIL import Image
+    from painter import cell_color
+    run = runs.get("lobule_start")
+    with tempfile.TemporaryDirectory() as folder:
+        place = pathlib.Path(folder)
+        call(runs, "voxelise", run, "--voxel", "0.7 um", "--blur", "0.3 um", "--noise", "0.3", "--quiet", "--out",
+             str(place / "labels.tif"))
+        call(runs, "import", str(place / "labels.tif"), "--vessel-label", "86", "--quiet", "--out", str(place / "tissue"))
+        call(runs, "run", str(place / "tissue" / "scene.json"), "--until", "1 s", "--threads", "1", "--quiet", "--out", str(place / "tissue.run"))
+        with Image.open(place / "labels.tif") as image:
+            image.seek(image.n_frames // 2)
+            labels = np.array(image)
+        colors = np.array([(1, 1, 1)] + [cell_color(k) for k in range(85)] + [VESSEL_COLOR])
+        sheet = Sheet(1100, 590)
+        um, width = 0.7 * labels.shape[1], 440
+        axes = sheet.axes(20, 45, width, round(width * labels.shape[0] / labels.shape[1]))
+        axes.imshow(colors[np.minimum(labels, 86)], interpolation="nearest", origin="lower")
+        axes.axis("off")
+        sheet.text(260, 24, "slice of the label image", 17, bold=True, align="center")
+        sheet.text(800, 24, "imported tissue", 17, bold=True, align="center")
+        sheet.picture(str(place / "tissue.run"), 0, ["--color", "cell"], 500, 45, 580, 490, 1.4 * um)
+    sheet.legend(["vessel"], 20, 560)
+    sheet.scale(um, width, 460, 570)
+    sheet.scale(1.4 * um, 580, 1080, 570)
+    sheet.save(IMAGES / "import.png")
+
+
+def report(runs):
+    """The page of the default run, as a browser shows it."""
+    from PIL import Image
+    run, picture = runs.get("lobule_hybrid"), IMAGES / "report.png"
+    with tempfile.TemporaryDirectory() as folder:
+        call(runs, "report", run, "--quiet", "--out", str(pathlib.Path(folder) / "page.html"), "--png", str(picture))
+    with Image.open(picture) as image:
+        image = image.convert("RGB").crop((0, 0, image.width, image.width * 9 // 10)).resize((1000, 900), Image.LANCZOS)
+    image.save(picture, optimize=True)
+
+
 # Scene -> options of render.py for its picture in the gallery.
 GALLERY = {
     "adhering_pair": [*CYTOSOL, "0", "5", *SECTION],
@@ -201,7 +250,7 @@ def gallery(runs):
 
 
 PICTURES = {f.__name__: f for f in (overview, lobule, moving_zoom, monolayers, spheroids, spheroid_1000, patch_capsule, single_cell,
-                                    pull_off_tension, regeneration_frames, gallery)}
+                                    pull_off_tension, regeneration_frames, imported, report, gallery)}
 
 
 def main():
