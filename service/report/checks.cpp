@@ -23,11 +23,11 @@ struct Check {
 /// deep by default and resolves shallower overlaps (soundness.hpp). Triangle quality 1 is
 /// equilateral.
 constexpr std::array kChecks{
-    Check{"sum of internal forces, over the sum of their sizes", "/balance/momentum", "1", 1e-12},
-    Check{"sum of their torques", "/balance/torque", "1", 1e-12},
-    Check{"cells that cross themselves", "/self_intersecting_cells", "1", 0},
-    Check{"deepest overlap of deformable cells with anything", "/max_penetration_um", "um", 1.5},
-    Check{"worst triangle", "/min_triangle_quality", "1", 0.05, false},
+    Check{"net internal force over the sum of magnitudes", "/balance/momentum", "1", 1e-12},
+    Check{"net internal torque over the sum of magnitudes", "/balance/torque", "1", 1e-12},
+    Check{"self-intersecting cells", "/self_intersecting_cells", "1", 0},
+    Check{"largest overlap of deformable cells", "/max_penetration_um", "um", 1.5},
+    Check{"minimum mesh quality (1: equilateral)", "/min_triangle_quality", "1", 0.05, false},
 };
 
 /// Check of overlaps of spheres, with a limit in their radii.
@@ -37,9 +37,9 @@ struct SphereCheck {
   double limit;
 };
 constexpr std::array kSphereChecks{
-    SphereCheck{"deepest overlap of two spheres (half a radius)", "/max_overlap_cbm_um",
+    SphereCheck{"largest overlap of two spheres (half a radius)", "/max_overlap_cbm_um",
                 runs::kSphereOverlap},
-    SphereCheck{"deepest overlap of a sphere with a vessel (a quarter of a radius)",
+    SphereCheck{"largest overlap of a sphere with a vessel (a quarter of a radius)",
                 "/overlap_of_spheres_um/cbm_vessel", runs::kVesselOverlap},
 };
 

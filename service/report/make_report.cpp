@@ -49,6 +49,13 @@ std::string file_named_after(const std::string& first) {
   return name.string() + ".html";
 }
 
+/// Path of a folder relative to that of the page, for links.
+std::string path_from_page(const std::string& folder, const std::string& page) {
+  const fs::path from = fs::absolute(page).lexically_normal().parent_path();
+  fs::path to = fs::absolute(folder).lexically_normal();
+  return to.lexically_relative(from).generic_string();
+}
+
 }  // namespace
 
 std::string write_report(const ReportOptions& options) {
@@ -57,6 +64,7 @@ std::string write_report(const ReportOptions& options) {
     if (kind_of(path) == ItemKind::kRun) folders.push_back(path);
   check(!folders.empty() || (!options.most_frames && !options.bytes),
         "--frames and --limit are for runs, and none is named. Leave them out.");
+  const std::string out = options.out.empty() ? file_named_after(options.what[0]) : options.out;
   const std::size_t page = empty_page_size(), bytes = options.bytes.value_or(8'000'000);
   check(bytes > page + 100'000,
         fmt::format("--limit: the page without data takes {:.1f} MB. Allow more.", 1e-6 * page));
@@ -76,13 +84,13 @@ std::string write_report(const ReportOptions& options) {
         break;
       case ItemKind::kStudy:
         data["items"].push_back(describe_study(path));
+        data["items"].back()["path"] = path_from_page(path, out);
     }
   }
   if (folders.size() > 1) data["comparison"] = describe_comparison(folders);
   if (!options.title.empty()) data["items"][0]["name"] = options.title;
   std::string title = data["items"][0]["name"].get<std::string>();
   if (options.what.size() > 1) title += fmt::format(" and {} more", options.what.size() - 1);
-  const std::string out = options.out.empty() ? file_named_after(options.what[0]) : options.out;
   io::write_text_file(out,
                       write_page(runs::as_utf8(title),
                                  data.dump(-1, ' ', false, OrderedJson::error_handler_t::replace)));

@@ -13,7 +13,7 @@ namespace acinus::service {
 /// @throws Error as calibration::read_law()
 nlohmann::ordered_json describe_law(const std::string& file);
 
-/// Describes a study: claims with verdicts, runs, plots.
+/// Describes a study: claims with verdicts, runs, plots, text of its report.
 /// @throws Error(kFileError) if the folder has none of them yet
 nlohmann::ordered_json describe_study(const std::string& folder);
 

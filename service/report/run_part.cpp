@@ -10,10 +10,8 @@
 #include "core/error.hpp"
 #include "core/sphere.hpp"
 #include "runs/scene/bounded_json.hpp"
-#include "runs/scene/differences.hpp"
-#include "runs/scene/scene.hpp"
-#include "runs/scene/writer.hpp"
 #include "service/report/checks.hpp"
+#include "service/report/scene_part.hpp"
 #include "service/report/thin.hpp"
 
 namespace acinus::service {
@@ -125,25 +123,14 @@ OrderedJson describe_events(const std::vector<io::Event>& events) {
   return {{"counts", counts}, {"last", last}, {"all", events.size()}};
 }
 
-/// Keys of a scene whose values differ from the defaults.
-std::vector<std::string> differences_from_defaults(const std::string& scene) {
-  runs::Scene plain;
-  const OrderedJson types =
-      runs::parse_bounded<OrderedJson>(scene, "scene").value("cell_types", OrderedJson::object());
-  check(types.is_object(), "its cell types are none.", Exit::kFileError);
-  for (const auto& [name, type] : types.items()) plain.cell_types[name] = {};
-  runs::set_canonical(plain);
-  return runs::list_scene_differences(plain.resolved_json, scene,
-                                      [](const std::string&) { return false; });
-}
-
 /// Adds the scene recorded in the run file, or a line to `damage` if it is invalid.
 void describe_scene(RunRecord& run, const std::string& text, OrderedJson& j) {
   OrderedJson scene = runs::parse_or_discard<OrderedJson>(text);
   std::string fault;
   try {
     check(scene.is_object(), "is no JSON object.", Exit::kFileError);
-    j["differences"] = differences_from_defaults(text);
+    j["changed"] = list_changed_values(scene);
+    j["walls"] = list_walls(scene);
     j["scene"] = std::move(scene);
   } catch (const Error& error) {
     fault = error.what();
@@ -151,6 +138,16 @@ void describe_scene(RunRecord& run, const std::string& text, OrderedJson& j) {
     fault = error.what();
   }
   if (!fault.empty()) run.damage.push_back("scene: " + fault);
+}
+
+/// Single results of the experiment. Its curves come from the run file, with their times.
+OrderedJson list_results(const OrderedJson& summary) {
+  OrderedJson list = OrderedJson::object();
+  const auto measures = summary.find("measures");
+  if (measures == summary.end() || !measures->is_object()) return list;
+  for (const auto& [name, value] : measures->items())
+    if (value.is_number()) list[name] = value;
+  return list;
 }
 
 }  // namespace
@@ -173,8 +170,8 @@ OrderedJson describe_run(RunRecord& run, const FrameLimits& limits) {
   j["folder"] = run.folder;
   j["name"] = std::filesystem::path(run.folder).lexically_normal().filename().string();
   j["going_on"] = run.going_on;
+  j["results"] = list_results(summary);
   j["summary"] = std::move(summary);
-  // Their curves come from the run file, with their times.
   for (const char* key : {"measures", "measure_units"}) j["summary"].erase(key);
   j["provenance"] = run.provenance;
   j["provenance"].erase("scene");

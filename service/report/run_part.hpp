@@ -12,7 +12,8 @@ namespace acinus::service {
 /// Most samples of a curve; longer curves are thinned (thin.hpp).
 inline constexpr int kMostSamples = 800;
 
-/// Describes a run: status, facts, scene, checks, times of stages, curves and frames.
+/// Describes a run: status, facts, scene, walls, results, checks, times of stages, curves and
+/// frames.
 /// @param run  read faults of its frames are added to its damage
 nlohmann::ordered_json describe_run(RunRecord& run, const FrameLimits& limits);
 

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "io/inside.hpp"
@@ -47,6 +49,36 @@ OrderedJson read_csv(const std::string& folder, const std::string& name) {
   return rows;
 }
 
+/// Folder of a run as `acinus study` names it: "runs/slow/cycle=20_h/seed_1".
+std::string folder_of_run(std::string name) {
+  constexpr std::string_view kOther = "_-+.=/";
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 &&
+        kOther.find(c) == std::string_view::npos)
+      c = '_';
+  return "runs/" + name;
+}
+
+/// Links to the runs of runs.csv, relative to the study: their report page, else their folder, null
+/// for one that is not there.
+OrderedJson list_links(const std::string& folder, const OrderedJson& runs) {
+  OrderedJson links = OrderedJson::array();
+  std::error_code code;
+  for (std::size_t k = 1; k < runs.size(); ++k) {
+    const std::string of_run =
+        folder_of_run(runs[k].empty() ? std::string() : runs[k][0].get<std::string>());
+    const bool inside = of_run.find("..") == std::string::npos;
+    if (inside && io::is_file_inside(folder, of_run + "/report.html"))
+      links.push_back(of_run + "/report.html");
+    else if (inside && fs::is_directory(fs::path(folder) / of_run, code) &&
+             io::is_folder_inside(folder, of_run))
+      links.push_back(of_run + "/");
+    else
+      links.push_back(nullptr);
+  }
+  return links;
+}
+
 }  // namespace
 
 OrderedJson describe_study(const std::string& folder) {
@@ -60,6 +92,9 @@ OrderedJson describe_study(const std::string& folder) {
   OrderedJson j{
       {"type", "study"}, {"name", root.lexically_normal().filename().string()}, {"folder", folder}};
   j["runs"] = read_csv(folder, "runs.csv");
+  j["links"] = list_links(folder, j["runs"]);
+  if (io::is_file_inside(folder, "report.md"))
+    j["text"] = io::read_text_inside(folder, "report.md");
   j["verdicts"] = OrderedJson::array();
   if (fs::exists(root / "verdicts.json", code))
     j["verdicts"] =

@@ -1,5 +1,5 @@
 /// Pages of `acinus report`: what is packed comes out again, what is too much is thinned, what is
-/// damaged is told.
+/// damaged is reported.
 
 #include "service/report/make_report.hpp"
 
@@ -17,6 +17,7 @@
 #include "service/report/frames.hpp"
 #include "service/report/pack.hpp"
 #include "service/report/page.hpp"
+#include "service/report/scene_part.hpp"
 #include "service/report/thin.hpp"
 #include "tests/io/sample.hpp"
 #include "tests/messages.hpp"
@@ -157,7 +158,7 @@ TEST(Report, KeepsItsSizeByLeavingOutFrames) {
   EXPECT_THROW(write_report(options), Error);
 }
 
-TEST(Report, TellsWhatIsDamagedAndShowsTheRest) {
+TEST(Report, ReportsWhatIsDamagedAndShowsTheRest) {
   const Folder f("report_damage");
   const std::string folder = f.path + "/a.run";
   write_run(folder, 3, 2);
@@ -177,6 +178,61 @@ TEST(Report, RefusesWhatItDoesNotKnow) {
   io::write_text_file(f.path + "/law.json", "{}");
   EXPECT_THROW(write_report({.what = {f.path + "/law.json"}, .out = f.path + "/a.html"}), Error);
   EXPECT_FALSE(fs::exists(f.path + "/a.html"));
+}
+
+TEST(ReportScene, ListsOnlyValuesThatAreNotTheDefaults) {
+  const auto scene = nlohmann::ordered_json::parse(R"({
+    "name": "a", "description": "b", "experiment": "lobule", "seed": 1, "zoom": [], "capsule": null,
+    "time": {"end": "1 h", "step": "60 s"},
+    "lobule": {"height": "30 um", "vessel_fraction": 0.12},
+    "walls": [{"speed": "0 um/h", "mirror": false}, {"mirror": true}], "unknown": 3})");
+  std::string keys;
+  for (const auto& c : list_changed_values(scene)) keys += c["key"].get<std::string>() + ";";
+  EXPECT_EQ(keys, "experiment;time.end;lobule.height;walls.0.mirror;unknown;");
+}
+
+TEST(ReportScene, ListsWallsInBaseUnits) {
+  const auto scene = nlohmann::ordered_json::parse(R"({"walls": [
+    {"name": "lower", "point": ["0 um", "1 mm", "-3 um"], "normal": [0, 0, 2], "speed": "36 um/h",
+     "travel": "6 um", "opens": "1 min", "mirror": false}],
+    "capsule": {"center": ["1 um", "2 um", "3 um"], "radius": "9 um", "speed": "0 um/h",
+     "min_radius": "0 um", "opens": "auto"}})");
+  const auto walls = list_walls(scene);
+  ASSERT_EQ(walls.size(), 2u);
+  EXPECT_EQ(walls[0]["point"], nlohmann::ordered_json({0, 1000, -3}));
+  EXPECT_DOUBLE_EQ(walls[0]["speed"].get<double>(), 0.01);
+  EXPECT_EQ(walls[0]["opens"], 60);
+  EXPECT_EQ(walls[1]["radius"], 9);
+  EXPECT_TRUE(walls[1]["opens"].is_null());
+}
+
+TEST(ReportScene, DrawsThePlanesOfALobule) {
+  const auto scene =
+      nlohmann::ordered_json::parse(R"({"lobule": {"shape": "pie", "radius": "280 um",
+    "height": "48 um", "central_vein_radius": "10 um", "portal_vein_radius": "15 um"}})");
+  const auto walls = list_walls(scene);
+  EXPECT_EQ(walls.size(), 5u);
+  for (const auto& wall : walls) EXPECT_TRUE(wall["mirror"].get<bool>());
+}
+
+TEST(Report, LinksTheRunsOfAStudy) {
+  const Folder f("report_study");
+  const std::string study = f.path + "/a.study";
+  for (const char* folder : {"/runs/x=1_h/seed_1", "/runs/x/seed_1", "/../outside"})
+    fs::create_directories(study + folder);
+  io::write_text_file(study + "/study.json", "{}");
+  io::write_text_file(study + "/report.md", "# a\n\nabout\n");
+  io::write_text_file(study + "/runs/x/seed_1/report.html", "");
+  io::write_text_file(
+      study + "/runs.csv",
+      "run,state\nx=1 h/seed_1,done\nx/seed_1,done\n../../outside,done\nnone,done\n");
+  fs::create_directories(f.path + "/pages");
+  const Json item =
+      data_of(write_report({.what = {study}, .out = f.path + "/pages/a.html"}))["items"][0];
+  EXPECT_EQ(item["path"], "../a.study");
+  EXPECT_EQ(item["text"], "# a\n\nabout\n");
+  EXPECT_EQ(item["links"],
+            Json({"runs/x=1_h/seed_1/", "runs/x/seed_1/report.html", nullptr, nullptr}));
 }
 
 TEST(Checks, JudgeOverlapsOfSpheresInTheirRadii) {
