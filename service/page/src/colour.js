@@ -9,13 +9,28 @@ const CLASSES = [
   [214, 122, 94], [96, 139, 193], [128, 171, 92], [171, 124, 179], [222, 178, 80], [99, 177, 170],
 ];
 
+
+// A colour that neither a class nor a magnitude has.
+export const SELECTED = [255, 20, 200];
+
+// Hues far apart for neighbouring ids.
+function colourOfCell(id) {
+  const hue = (id * 0.61803398875) % 1, light = 0.52 + 0.12 * ((id * 0.41421356) % 1);
+  const channel = (shift) => {
+    const k = (shift + 12 * hue) % 12;
+    return light - 0.55 * Math.min(light, 1 - light) * Math.max(-1, Math.min(k - 3, 9 - k, 1));
+  };
+  return [channel(0), channel(8), channel(4)];
+}
+
 // What can be shown: label, unit and scale from the run file's units.
 export const FIELDS = {
-  model: { label: "Model", classes: ["deformable", "sphere"], of: (t, r) => t.kind[r] },
+  model: { label: "Model", classes: ["deformable cell", "sphere"], of: (t, r) => t.kind[r] },
+  cell: { label: "Cell", each: true, of: (t, r) => t.id[r] },
   pressure: { label: "Contact pressure", unit: "Pa", scale: 1000 },
   cytosol_pressure: { label: "Cytosol pressure", unit: "Pa", scale: 1000 },
   compression: {
-    label: "Volume over reference", unit: "",
+    label: "Relative volume V/V₀", unit: "",
     of: (t, r) => t.volume[r] / ((4 / 3) * Math.PI * t.radius[r] ** 3),
   },
   volume: { label: "Volume", unit: "µm³" },
@@ -26,13 +41,14 @@ export const FIELDS = {
   migration_force: { label: "Active force", unit: "nN" },
   radius: { label: "Radius", unit: "µm" },
   type: { label: "Cell type", classes: [] },
-  leader: { label: "Leaders", classes: ["other", "leader"] },
+  leader: { label: "Leading cells", classes: ["other cell", "leading cell"] },
 };
 
 export function availableFields(frames) {
   const has = new Set([...frames.id_columns, ...frames.columns]);
   return Object.keys(FIELDS).filter((name) => {
     if (name === "model") return has.has("kind");
+    if (name === "cell") return has.has("id");
     if (name === "compression") return has.has("volume") && has.has("radius");
     return has.has(name);
   });
@@ -57,6 +73,7 @@ export function rangeOf(name, frames) {
 
 export function colourOf(name, value, [low, high]) {
   if (!Number.isFinite(value)) return [0.6, 0.6, 0.6];
+  if (FIELDS[name].each) return colourOfCell(value);
   if (FIELDS[name].classes) return CLASSES[((value % CLASSES.length) + CLASSES.length) % CLASSES.length].map((c) => c / 255);
   const x = Math.min(1, Math.max(0, (value - low) / (high - low))) * (VIRIDIS.length - 1);
   const k = Math.min(VIRIDIS.length - 2, Math.floor(x));
