@@ -89,7 +89,7 @@ def wait_for(browser, condition, seconds=30):
 
 
 def check_silence(browser, page, allowed=("file://", "data:", "blob:")):
-    """No error was told and nothing was asked from anywhere but what is allowed."""
+    """No error was reported and no request went anywhere but where it may."""
     wrong = []
     for e in browser.events:
         p = e.get("params", {})
@@ -100,7 +100,7 @@ def check_silence(browser, page, allowed=("file://", "data:", "blob:")):
         if e.get("method") == "Runtime.consoleAPICalled" and p["type"] == "error":
             wrong.append(str(p["args"]))
         if e.get("method") == "Network.requestWillBeSent" and not p["request"]["url"].startswith(allowed):
-            wrong.append("asks for " + p["request"]["url"])
+            wrong.append("requests " + p["request"]["url"])
     assert not wrong, f"{page}: " + "; ".join(wrong)
 
 

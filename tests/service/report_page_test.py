@@ -30,7 +30,48 @@ def canvas(browser):
     return browser.run("document.querySelector('.stage canvas').toDataURL()")
 
 
+def check_fit(browser):
+    """At the start all cells and obstacles are inside the picture, and a scale bar says how large they are."""
+    outside = browser.run("""(() => {
+      const v = window.acinusViewer;
+      let out = 0;
+      for (const m of v.models) if (m.isCompact()) m.forEachDrawn((x, y, z) => {
+        const p = v.camera.position.clone().set(x, y, z).project(v.camera);
+        if (Math.abs(p.x) > 1 || Math.abs(p.y) > 1) ++out;
+      });
+      return out;
+    })()""")
+    assert outside == 0, f"{outside} points outside the picture at the start"
+    assert browser.run("document.querySelector('.scale').textContent").endswith("µm"), "no scale bar"
+
+
+def check_section(browser):
+    """Every cell that the plane cuts has a face, and all faces lie in the plane."""
+    wrong = browser.run("""(() => {
+      for (const m of window.acinusViewer.models) {
+        const n = m.section.geometry.getAttribute("position").count / 3;
+        if (m.owner.length !== n) return `${m.owner.length} owners of ${n} triangles`;
+        const height = [...m.section.geometry.getAttribute("position").array].map((x, k, all) => (k % 3 === 0 ? Math.abs(m.plane.normal.x * x + m.plane.normal.y * all[k + 1] + m.plane.normal.z * all[k + 2] + m.plane.constant) : 0));
+        if (height.some((h) => h > 1e-2)) return "a face outside the plane";
+        const { center, radius, id } = m.frame.sphere;
+        const cut = [...id].filter((_, k) => Math.abs(m.plane.normal.x * center[3 * k] + m.plane.normal.y * center[3 * k + 1] + m.plane.normal.z * center[3 * k + 2] + m.plane.constant) < 0.5 * radius[k]);
+        const mesh = new Map();
+        m.frame.mesh.cell.forEach((cell, k) => {
+          const h = m.plane.normal.x * m.frame.point[3 * k] + m.plane.normal.y * m.frame.point[3 * k + 1] + m.plane.normal.z * m.frame.point[3 * k + 2] + m.plane.constant;
+          mesh.set(cell, [Math.min(h, mesh.get(cell)?.[0] ?? h), Math.max(h, mesh.get(cell)?.[1] ?? h)]);
+        });
+        for (const [cell, [low, high]] of mesh) if (low < -1 && high > 1) cut.push(cell);
+        const faces = new Set(m.owner.map((o) => o.id));
+        const open = cut.filter((cell) => !faces.has(cell));
+        if (open.length > 0) return `cells ${open} are cut and have no face`;
+      }
+      return "";
+    })()""")
+    assert not wrong, wrong
+
+
 def operate_viewer(browser):
+    check_fit(browser)
     seen = canvas(browser)
 
     def changed(what):
@@ -59,6 +100,8 @@ def operate_viewer(browser):
         changed("cut " + axis)
     set_value(browser, "[aria-label^=Position]", "0.3", "input")
     changed("the position of the cut")
+    set_value(browser, "[aria-label^=Position]", "0.5", "input")
+    check_section(browser)
     set_value(browser, "#cut", "off", "change")
     seen = canvas(browser)
     for k in range(browser.run("document.querySelectorAll('.check input').length")):
@@ -89,6 +132,13 @@ def pick_a_cell(browser):
     wait_for(browser, "document.querySelectorAll('.cell td').length > 10 && document.querySelector('.cell canvas') != null")
 
 
+def check_plots(browser):
+    """No legend without curves or with a colour twice, at most five curves in it."""
+    legends = browser.run("[...document.querySelectorAll('.curves')].map((l) => [...l.querySelectorAll('i')].map((i) => i.style.background))")
+    for colours in legends:
+        assert 1 <= len(colours) <= 5 and len(set(colours)) == len(colours), colours
+
+
 def operate_rest(browser):
     for name in browser.run("[...(document.querySelector('#observable')?.options ?? [])].map((o) => o.value)")[:20]:
         browser.run(f"""(() => {{ const e = document.querySelector('#observable'); e.value = {json.dumps(name)}; e.dispatchEvent(new Event('change')); }})()""")
@@ -97,6 +147,7 @@ def operate_rest(browser):
     for k in range(browser.run("document.querySelectorAll('.plot').length")):
         browser.run(f"document.querySelectorAll('.plot')[{k}].scrollIntoView()")
         wait_for(browser, f"document.querySelectorAll('.plot')[{k}].querySelector('canvas, img') != null", 15)
+    check_plots(browser)
     wide = browser.run("document.documentElement.scrollWidth - document.documentElement.clientWidth")
     assert wide <= 0, f"the page is {wide} px wider than the window"
 

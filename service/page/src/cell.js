@@ -1,5 +1,6 @@
 // One cell: its row in the frame shown, its relatives, its history.
 import { FIELDS, valueOf } from "./colour.js";
+import { nameOf, shownIn } from "./names.js";
 import { plot } from "./plots.js";
 import { make, nice, number, table } from "./text.js";
 
@@ -22,13 +23,14 @@ export class CellPanel {
     const curve = { label: `cell ${id}`, time: seen.map((f) => f.time), value: seen.map((f) => valueOf(field, f.table, f.row.get(id))), points: true };
     const head = make("h3", {}, `Cell ${id}`, this.runs.length > 1 ? make("span", { class: "unit" }, ` of ${name}`) : null);
     const values = at == null ? [] : [...raw.id_columns, ...raw.columns].filter((c) => c !== "id" && c !== "parent").map((c) => {
-      if (c === "kind") return ["model", FIELDS.model.classes[rows.kind[at]]];
-      const scale = raw.units[c] === "kPa" ? 1000 : 1;
-      return [c.replaceAll("_", " "), `${number(rows[c][at] * scale)} ${scale === 1000 ? "Pa" : nice(raw.units[c] ?? "")}`];
+      if (c === "kind") return ["Model", FIELDS.model.classes[rows.kind[at]]];
+      if (c === "leader") return ["Leading cell", rows.leader[at] ? "yes" : "no"];
+      const [factor, unit] = shownIn(raw.units[c]);
+      return [FIELDS[c]?.label ?? nameOf(c), `${number(rows[c][at] * factor)} ${nice(unit)}`];
     });
     this.element.replaceChildren(head, make("p", { class: "quiet" }, this.relatives(id, all)),
-      at == null ? make("p", {}, "It is not there in this frame.") : table(["", "in this frame"], values, `Cell ${id}`),
-      plot(FIELDS[field].label, FIELDS[field].unit ?? "", [curve]) ?? "");
+      at == null ? make("p", {}, "Not present in this frame.") : table(["", "in this frame"], values, `Cell ${id}`),
+      (FIELDS[field].each || FIELDS[field].classes ? null : plot(FIELDS[field].label, FIELDS[field].unit ?? "", [curve])) ?? "");
   }
 
   relatives(id, all) {
@@ -37,7 +39,7 @@ export class CellPanel {
     const line = [];
     for (let m = mother.get(id); m != null && m >= 0 && line.length < 20; m = mother.get(m)) line.push(m);
     const daughters = [...mother].filter(([, m]) => m === id).map(([cell]) => cell);
-    const parts = [line.length > 0 ? `mother ${line.join(" ← ")}` : "there from the start"];
+    const parts = [line.length > 0 ? `mother ${line.join(" ← ")}` : "founder"];
     if (daughters.length > 0) parts.push(`daughters ${daughters.join(", ")}`);
     return parts.join("; ");
   }

@@ -1,5 +1,11 @@
 // What a run is, how it ended, and how far it can be trusted.
-import { duration, make, nice, number, table } from "./text.js";
+import { mainQuantities } from "./curves.js";
+import { nameOf, shownIn, unitOfName } from "./names.js";
+import { cellCounts, duration, make, nice, number, table, tiles } from "./text.js";
+
+const MOST_RESULTS = 4;
+const RESUMED = 1.5; // wall time over that of the stages, above which earlier sessions are missing
+const NO_RESULT = /^(max_overlap|wall_s|cpu_s|radius_um|adhesion_energy)/; // checks, costs, input
 
 function status(run) {
   if (run.going_on) return ["running", "is being written"];
@@ -8,9 +14,34 @@ function status(run) {
   return [s, run.summary.cause ?? ""];
 }
 
+// Name, description, end, verdict of the checks.
 export function header(run) {
   const [word, why] = status(run);
-  return make("div", { class: "headline" }, make("h2", {}, run.name), make("span", { class: `badge ${word}` }, word), why ? make("span", { class: "why" }, why) : null);
+  const failed = run.checks.filter((c) => !c.pass).length;
+  const verdict = run.checks.length === 0 ? null
+    : make("span", { class: `badge ${failed > 0 ? "failed" : "completed"}` }, failed > 0 ? `${failed} of ${run.checks.length} checks failed` : `all ${run.checks.length} checks passed`);
+  return make("div", {}, make("div", { class: "headline" }, make("h2", {}, run.name), make("span", { class: `badge ${word}` }, word), verdict, why ? make("span", { class: "why" }, why) : null),
+    run.scene?.description ? make("p", { class: "about" }, sentence(run.scene.description)) : null, tiles(keyFigures(run)));
+}
+
+const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1) + (/[.!?]$/.test(text) ? "" : ".");
+
+// What a reader asks first: how many cells, how long, and the results of the experiment.
+function keyFigures(run) {
+  const s = run.summary;
+  const last = (curve) => curve.value.findLast((v) => v != null);
+  const curves = mainQuantities([run]).map((name) => {
+    const [factor, unit] = shownIn(run.observables[name].unit);
+    const value = last(run.observables[name]);
+    return [nameOf(name), value == null ? "–" : `${number(factor * value)} ${nice(unit)}`];
+  });
+  const results = Object.entries(run.results ?? {}).filter(([name]) => !NO_RESULT.test(name)).map(([name, value]) => [nameOf(name), `${number(value)} ${unitOfName(name)}`]);
+  const frames = run.frames.list;
+  return [
+    ["Cells", s.cells ? cellCounts(s.cells) : frames.length > 0 ? String(frames.at(-1).cells) : "–"],
+    ["Simulated time", s.simulated_s == null ? (frames.length > 0 ? duration(frames.at(-1).time) : "–") : duration(s.simulated_s)],
+    ...[...results, ...curves].slice(0, MOST_RESULTS),
+  ];
 }
 
 function facts(run) {
@@ -19,17 +50,17 @@ function facts(run) {
   const rows = [
     ["Scene", s.scene],
     ["Simulated", s.simulated_s == null ? null : duration(s.simulated_s) + (s.start_up_s ? ` after ${duration(s.start_up_s)} of start-up` : "")],
-    ["Cells at the end", s.cells ? `${s.cells.dcm} deformable, ${s.cells.cbm} spheres` : null],
-    ["Divisions, deaths", s.cells ? `${s.cells.divisions}, ${s.cells.deaths}` : null],
+    ["Cells at the end", s.cells ? cellCounts(s.cells) : null],
+    ["Divisions, deaths", s.cells && s.cells.divisions + s.cells.deaths > 0 ? `${s.cells.divisions}, ${s.cells.deaths}` : null],
     ["Steps", s.steps ? `${s.steps.accepted} accepted, ${s.steps.rejected} rejected` : null],
     ["Wall and CPU time", s.wall_s == null ? null : `${duration(s.wall_s)}, ${duration(s.cpu_s)} on ${s.threads} thread${s.threads === 1 ? "" : "s"}`],
     ["Memory", s.peak_rss_bytes ? `${number(s.peak_rss_bytes / 1e6)} MB` : null],
     ["Seed", s.seed ?? p.seed],
-    ["Program", `${p.version ?? s.version ?? ""} (${p.git ?? s.git ?? ""})`],
+    ["Program", `acinus ${p.version ?? s.version ?? ""}`],
     ["Command", p.command_line],
-    ["Begun, ended", p.start ? `${p.start}${p.end ? ` – ${p.end}` : ""}` : null],
-    ["Final state", s.state_hash],
-    ["Frames", `${run.frames.list.length} of ${run.frames.in_file} shown`],
+    ["Started, ended", p.start ? `${p.start}${p.end ? ` – ${p.end}` : ""}` : null],
+    ["Hash of the final state", s.state_hash],
+    ["Frames", `${run.frames.list.length} of ${run.frames.in_file} on this page`],
   ];
   return make("dl", { class: "facts" }, ...rows.filter(([, v]) => v != null && v !== "").flatMap(([k, v]) => [make("dt", {}, k), make("dd", {}, String(v))]));
 }
@@ -39,13 +70,13 @@ function checks(run) {
   const rows = run.checks.map((c) => [
     make("span", { class: c.pass ? "pass" : "fail" }, c.pass ? "pass" : "fail"), c.name, `${number(c.value)} ${nice(c.unit)}`, `${c.at_most ? "at most" : "at least"} ${number(c.limit)} ${nice(c.unit)}`,
   ]);
-  return make("div", {}, make("h3", {}, "Balances and checks"), table(["", "what", "here", "asked"], rows, "Balances and checks"));
+  return make("div", {}, make("h3", {}, "Checks"), table(["", "check", "measured", "allowed"], rows, "Checks"));
 }
 
 function notes(run) {
-  const warnings = [...run.damage.map((d) => `Not readable: ${d}`), ...(run.summary.warnings ?? [])];
+  const warnings = [...run.damage.map((d) => `Unreadable: ${d}`), ...(run.summary.warnings ?? [])];
   if (run.frames.list.length < run.frames.in_file)
-    warnings.push(`The page shows ${run.frames.list.length} of ${run.frames.in_file} frames, to stay small; acinus report --frames and --limit allow more.`);
+    warnings.push(`The page shows ${run.frames.list.length} of ${run.frames.in_file} frames, to stay small. The options --frames and --limit of acinus report allow more.`);
   if (warnings.length === 0) return null;
   return make("ul", { class: "warnings" }, ...warnings.map((w) => make("li", {}, w)));
 }
@@ -55,42 +86,25 @@ function stages(run) {
   if (times.length === 0) return null;
   const most = times[0][1];
   const sum = times.reduce((a, [, s]) => a + s, 0);
-  return make("div", {}, make("h3", {}, "Where the time went"), make("div", { class: "bars" }, ...times.flatMap(([name, s]) => [
+  return make("div", {}, make("h3", {}, "Wall time per stage"),
+    make("p", { class: "quiet" }, `Rejected attempts are included.${run.summary.wall_s > RESUMED * sum ? ` The stages cover ${duration(sum)} of ${duration(run.summary.wall_s)}: those of the last session of a resumed run.` : ""}`), make("div", { class: "bars" }, ...times.flatMap(([name, s]) => [
     make("span", {}, name), make("i", { style: `width:${Math.max(0.5, (100 * s) / most)}%` }), make("span", { class: "amount" }, `${duration(s)} · ${number(+((100 * s) / sum).toPrecision(2))} %`)])));
 }
 
-const plain = (value) => (value === null ? "none" : typeof value === "string" ? value : JSON.stringify(value));
-
-function valueOf(text) {
-  try {
-    return JSON.parse(text);
-  } catch {
-    return text; // "absent", "3 entries"
-  }
-}
-
-// Every value in a block that the defaults do not have: [key, text].
-function leaves(key, value) {
-  if (value === null || typeof value !== "object" || Array.isArray(value)) return [[key, plain(value)]];
-  return Object.entries(value).flatMap(([name, inner]) => leaves(`${key}.${name}`, inner));
-}
+const plain = (value) => (value === null ? "none" : typeof value === "string" ? value : Array.isArray(value) ? value.map(plain).join(", ") || "empty" : JSON.stringify(value));
 
 function scene(run) {
-  if (!run.differences) return null;
-  const lines = run.differences.flatMap((d) => {
-    const colon = d.indexOf(": ");
-    const [then, ...now] = d.slice(colon + 2).split(" -> ");
-    return leaves(d.slice(1, colon).replaceAll("/", "."), valueOf(now.join(" -> "))).map(([key, here]) => [make("code", {}, key), here, plain(valueOf(then))]);
-  });
-  return make("details", { class: "scene" }, make("summary", {}, `Scene: ${lines.length} values that are not the defaults`),
-    table(["key", "here", "default"], lines, "Scene, differences from the defaults"),
+  if (!run.changed) return null;
+  const rows = run.changed.map((c) => [make("code", { title: c.meaning }, c.key), plain(c.value), c.default === null ? "–" : plain(c.default), c.meaning]);
+  return make("details", { class: "scene" }, make("summary", {}, `Scene: ${rows.length} values that are not the defaults`),
+    table(["key", "value", "default", "meaning"], rows, "Scene, differences from the defaults"),
     make("details", {}, make("summary", {}, "The whole scene"), make("pre", {}, JSON.stringify(run.scene, null, 1))));
 }
 
 function skipped(run) {
   const list = run.summary.skipped ?? [];
   if (list.length === 0) return null;
-  return make("p", { class: "quiet" }, `Skipped, because the scene does not need it: ${list.join(", ")}.`);
+  return make("p", { class: "quiet" }, `Not computed, because the scene does not need it: ${list.join(", ")}.`);
 }
 
 export function overview(run) {
@@ -101,6 +115,6 @@ export function events(run) {
   const { counts, last, all } = run.events;
   if (!all) return null;
   const rows = last.map(([t, code, message, cells]) => [duration(t), code, cells.join(", "), message]);
-  const told = Object.entries(counts).map(([code, n]) => `${n} × ${code}`).join(", ");
-  return make("details", {}, make("summary", {}, `Events: ${told}${last.length < all ? ` (the last ${last.length} below)` : ""}`), table(["time", "event", "cells", ""], rows, "Events"));
+  const kinds = Object.entries(counts).map(([code, n]) => `${n} × ${code}`).join(", ");
+  return make("details", {}, make("summary", {}, `Events: ${kinds}${last.length < all ? ` (the last ${last.length} below)` : ""}`), table(["time", "event", "cells", ""], rows, "Events"));
 }

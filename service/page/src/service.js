@@ -9,7 +9,7 @@ let listed = [];
 
 const chosen = () => location.hash.slice(1);
 
-function told(run) {
+function progress(run) {
   const cells = run.cells.dcm + run.cells.cbm;
   if (run.state === "running" && run.phase !== "running") return run.phase || "starting";
   if (run.state === "running") return `${duration(run.time_s)} of ${duration(run.end_s)}, ${cells} cells${run.left_s == null ? "" : `, ${duration(run.left_s)} left`}`;
@@ -19,7 +19,7 @@ function told(run) {
 
 function entry(run) {
   const link = make("a", { href: "#" + run.id, "aria-current": run.id === chosen() ? "page" : null },
-    make("span", { class: "title" }, run.name), make("span", { class: "badge " + run.state }, run.state), make("span", { class: "told" }, told(run)));
+    make("span", { class: "title" }, run.name), make("span", { class: "badge " + run.state }, run.state), make("span", { class: "progress" }, progress(run)));
   if (run.state === "running" && run.end_s > 0) link.append(make("progress", { max: "1", value: String(Math.max(0, run.time_s) / run.end_s), "aria-label": "simulated" }));
   return make("li", {}, link);
 }
@@ -40,11 +40,11 @@ function watch() {
     const news = JSON.parse(message.data);
     listed = news.runs;
     counts.textContent = Object.entries(news.count).map(([state, n]) => `${n} ${state}`).join(", ");
-    document.querySelector("footer").textContent = `acinus ${news.version}, ${bytes(news.disk_bytes)} on disk. What is asked for stays in the queue when the service ends.`;
+    document.querySelector("footer").textContent = `acinus ${news.version}, ${bytes(news.disk_bytes)} on disk. The queue is kept when the service ends.`;
     show();
     document.body.dataset.ready = "yes";
   };
-  source.onerror = () => { counts.textContent = "the service does not answer; trying again"; };
+  source.onerror = () => { counts.textContent = "no reply from the service; trying again"; };
 }
 
 addEventListener("hashchange", () => {

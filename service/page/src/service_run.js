@@ -1,10 +1,11 @@
 // The chosen run: how far it is, what it measures, what can be done with it.
+import { inShownUnit, nameOf, shownIn } from "./names.js";
 import { plot } from "./plots.js";
-import { bytes, duration, make } from "./text.js";
+import { bytes, cellCounts, duration, make } from "./text.js";
 
 const FIRST = ["lesion_area_relative", "lesion_area_flooded", "lesion_area", "cells", "radius_of_gyration_um", "mean_pressure_Pa", "contact_pressure_mean_dcm_Pa"];
 const PLOTS = 2;
-const REFRESH = 3000; // ms between looks at a run that goes on
+const REFRESH = 3000; // ms between updates of a run in progress
 
 export class RunPanel {
   constructor(element) {
@@ -40,11 +41,11 @@ export class RunPanel {
     const run = this.run;
     this.head.replaceChildren(make("h2", {}, run.name), make("span", { class: "badge " + run.state }, run.state));
     const time = duration(Math.max(0, run.time_s));  // before: start-up
-    const rows = [["simulated", run.end_s > 0 ? `${time} of ${duration(run.end_s)}` : time], ["cells", `${run.cells.dcm} deformable, ${run.cells.cbm} spheres`],
-      ["scene", run.scene || "own"], ["changes", run.set.join(", ") || "none"], ["asked for", run.created]];
-    if (run.phase && run.phase !== "running") rows.unshift(["busy with", run.phase]);
-    if (run.left_s != null) rows.push(["left", `about ${duration(run.left_s)}`]);
-    if (run.cause) rows.push(["why", run.cause]);
+    const rows = [["simulated time", run.end_s > 0 ? `${time} of ${duration(run.end_s)}` : time], ["cells", cellCounts(run.cells)],
+      ["scene", run.scene || "own"], ["changes", run.set.join(", ") || "none"], ["submitted", run.created]];
+    if (run.phase && run.phase !== "running") rows.unshift(["phase", run.phase]);
+    if (run.left_s != null) rows.push(["remaining wall time", `about ${duration(run.left_s)}`]);
+    if (run.cause) rows.push(["cause", run.cause]);
     this.facts.replaceChildren(...rows.flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)]));
     const focused = this.actions.contains(document.activeElement) ? document.activeElement.textContent : null;
     this.actions.replaceChildren(...this.possible());
@@ -93,8 +94,8 @@ export class RunPanel {
       const first = [...FIRST.filter((n) => names.includes(n)), ...names.filter((n) => !FIRST.includes(n))];
       this.chosen = first.slice(0, PLOTS);
       this.pick.replaceChildren(...this.chosen.map((name, k) => make("select", { "aria-label": `Plot ${k + 1}`, onchange: (e) => { this.chosen[k] = e.target.value; this.drawSeries(); } },
-        ...names.map((n) => make("option", { value: n, selected: n === name }, n.replaceAll("_", " "))))));
+        ...names.map((n) => make("option", { value: n, selected: n === name }, nameOf(n))))));
     }
-    this.plots.replaceChildren(...this.chosen.map((n) => plot(n.replaceAll("_", " "), series[n].unit, [{ label: n, time: series[n].time_s, value: series[n].value }])).filter((p) => p));
+    this.plots.replaceChildren(...this.chosen.map((n) => plot(nameOf(n), shownIn(series[n].unit)[1], [inShownUnit({ label: nameOf(n), time: series[n].time_s, value: series[n].value, unit: series[n].unit })])).filter((p) => p));
   }
 }

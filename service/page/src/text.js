@@ -16,7 +16,7 @@ export function number(value) {
   if (typeof value !== "number") return String(value);
   if (Number.isInteger(value) && Math.abs(value) < 1e7) return String(value);
   const size = Math.abs(value);
-  return size !== 0 && (size < 1e-3 || size >= 1e6) ? value.toExponential(2) : String(+value.toPrecision(4));
+  return size !== 0 && (size < 1e-3 || size >= 1e6) ? value.toExponential(2).replace(/\.?0+e/, "e") : String(+value.toPrecision(4));
 }
 
 export function duration(seconds) {
@@ -51,3 +51,8 @@ export function table(head, rows, label) {
 
 // micro and powers as people write them
 export const nice = (unit) => (unit === "1" ? "" : unit.replace(/^um/, "µm").replace("^2", "²").replace("^3", "³").replace("m2", "m²"));
+
+// Figures with their names: [[name, value]]
+export const tiles = (figures) => make("dl", { class: "tiles" }, ...figures.map(([name, value]) => make("div", {}, make("dt", {}, name), make("dd", {}, value))));
+
+export const cellCounts = ({ dcm, cbm }) => [dcm > 0 ? `${dcm} deformable` : null, cbm > 0 ? `${cbm} ${cbm === 1 ? "sphere" : "spheres"}` : null].filter((p) => p).join(", ") || "none";
