@@ -78,12 +78,12 @@ const std::string& JobList::text() {
 }
 
 EventSource watch_job(Dispatcher& dispatcher, const std::string& id) {
-  return [&dispatcher, id, told = std::optional<std::uint64_t>(),
+  return [&dispatcher, id, reported = std::optional<std::uint64_t>(),
           quiet = 0]() mutable -> std::optional<std::string> {
     const RunJob* job = dispatcher.find(id);
     if (job == nullptr) return std::nullopt;
-    if (told != job->revision) {
-      told = job->revision;
+    if (reported != job->revision) {
+      reported = job->revision;
       quiet = 0;
       return event_text(json_line(view_job(*job)));
     }
@@ -92,10 +92,10 @@ EventSource watch_job(Dispatcher& dispatcher, const std::string& id) {
 }
 
 EventSource watch_list(const Dispatcher& dispatcher, JobList& list) {
-  return [&dispatcher, &list, told = std::optional<std::uint64_t>(),
+  return [&dispatcher, &list, reported = std::optional<std::uint64_t>(),
           quiet = 0]() mutable -> std::optional<std::string> {
-    if (told != dispatcher.revision()) {
-      told = dispatcher.revision();
+    if (reported != dispatcher.revision()) {
+      reported = dispatcher.revision();
       quiet = 0;
       return event_text(list.text());
     }

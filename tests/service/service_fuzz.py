@@ -111,9 +111,9 @@ def main():
                 if service.end() != 0:
                     wrong.append("the service does not end well")
         with open(errors) as file:
-            told = file.read()
-        if "ERROR" in told or "runtime error" in told or "internal error" in told:
-            wrong.append(told[-4000:])
+            reported = file.read()
+        if "ERROR" in reported or "runtime error" in reported or "internal error" in reported:
+            wrong.append(reported[-4000:])
     print(f"{count} requests: " + ", ".join(f"{n} x {status}" for status, n in sorted(answers.items())))
     print("\n".join(wrong))
     return 1 if wrong else 0

@@ -33,7 +33,7 @@ def listen(service):
     return link
 
 
-def told(links):
+def reported(links):
     """How many of them have been sent something since they were asked last."""
     ready, poll = 0, select.poll()
     for link in links:
@@ -63,11 +63,11 @@ def main():
         before = memory(service.process)
         links = [listen(service) for _ in range(LISTENERS)]
         time.sleep(2)
-        first = told(links)
+        first = reported(links)
         with_them = memory(service.process)
-        print(f"{LISTENERS} listeners: {first} were told the state, {with_them:.0f} MB, {before:.0f} MB without them")
+        print(f"{LISTENERS} listeners: {first} received the state, {with_them:.0f} MB, {before:.0f} MB without them")
         if first < LISTENERS or with_them > 100:
-            wrong.append("not all listeners were told, or the service takes more than 100 MB")
+            wrong.append("not all listeners received the state, or the service takes more than 100 MB")
         begin = time.monotonic()
         ids = {service.submit("two_cells", set={"time.end": "1 min", "seed": k})["id"] for k in range(SUBMISSIONS)}
         took = time.monotonic() - begin
@@ -76,7 +76,7 @@ def main():
             wrong.append("two submissions have one id")
         end = time.monotonic() + 900
         while service.json("GET", "/runs")["count"].get("completed", 0) < SUBMISSIONS and time.monotonic() < end:
-            told(links)
+            reported(links)
             time.sleep(0.5)
         count = service.json("GET", "/runs")["count"]
         print(f"after {time.monotonic() - begin:.0f} s: {count}, {memory(service.process):.0f} MB")

@@ -55,7 +55,7 @@ def test_a_run_from_submission_to_files(service, acinus):
 def wait_for_progress(service, run):
     end = time.monotonic() + 60
     while not service.json("GET", f"/runs/{run}")["phase"]:
-        assert time.monotonic() < end, "no progress is told"
+        assert time.monotonic() < end, "no progress is reported"
         time.sleep(0.02)
 
 
@@ -97,7 +97,7 @@ def test_own_scenes_and_files(service, _):
 
 def test_bad_submissions(service, _):
     before = len(os.listdir(service.data + "/runs"))
-    for body, told in [
+    for body, reported in [
             (b"{", "JSON object"), (b"[]", "JSON object"), ({}, '"scene"'), ({"scene": 3}, '"scene"'), ({"scene": "two_cels"}, "two_cells"),
             ({"scene": "two_cells", "sett": {}}, "sett"), ({"scene": "two_cells", "set": {"time.ende": "1 h"}}, "time.end"),
             ({"scene": "two_cells", "set": {"time.end": "1 kg"}}, "time.end"), ({"scene": "../two_cells"}, "no shipped scene"),
@@ -110,7 +110,7 @@ def test_bad_submissions(service, _):
             ({"scene": "two_cells", "files": {"two_cells.json": ""}}, "shipped scene"),
             ({"scene": "spheroid_cbm", "set": {"cells.count": 1000000, "domain.box": [["0 m", "0 m", "0 m"], ["1 m", "1 m", "1 m"]]}}, "")]:
         status, _, text = service.ask("POST", "/runs", body)
-        assert status == 400 and told in json.loads(text)["error"]["message"], f"{body}: {status} {text}"
+        assert status == 400 and reported in json.loads(text)["error"]["message"], f"{body}: {status} {text}"
     assert len(os.listdir(service.data + "/runs")) == before, "something refused was kept"
     assert service.ask("POST", "/runs", b"x" * 20_000_000)[0] == 413
 
@@ -216,10 +216,10 @@ def test_limits(acinus, folder):
 
 
 def test_command_line(acinus, folder):
-    for words, told in [(["--address", "here"], "IP address"), (["--address", "0.0.0.0", "--no-token"], "--no-token"), (["--port", "70000"], "--port"),
+    for words, reported in [(["--address", "here"], "IP address"), (["--address", "0.0.0.0", "--no-token"], "--no-token"), (["--port", "70000"], "--port"),
                         (["--max-disk", "4"], "--max-disk")]:
         said = subprocess.run([acinus, "serve", "--data", folder + "/c", *words], capture_output=True, text=True, timeout=20)
-        assert said.returncode == 2 and told in said.stderr, said
+        assert said.returncode == 2 and reported in said.stderr, said
 
 
 def main():
