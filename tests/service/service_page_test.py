@@ -65,6 +65,17 @@ def watch_a_run(browser, keep):
     assert len(frames) == 1 and frames[0].endswith("/report"), frames
 
 
+def clone_a_run(browser):
+    """The form gets the scene, changes and name of the chosen run."""
+    set_value(browser, "#scene", "pull_off", "change")
+    set_value(browser, "#set", "", "input")
+    push(browser, "Clone")
+    wait_for(browser, "document.querySelector('#set').value !== ''")
+    form = browser.run("['scene', 'set', 'name'].map((id) => document.querySelector('#' + id).value)")
+    assert form[0] == "two_cells" and form[2] == "a pair", form
+    assert sorted(line.split("=")[0].strip() for line in form[1].split("\n")) == ["output.every", "time.end"], form
+
+
 def stop_and_resume(browser, keep):
     start_run(browser, "lobule_hybrid", "start_up.growth_time = 30 min\ntime.end = 10 min\noutput.every = 2 min", "")
     wait_for(browser, f"{BADGE} === 'running'")
@@ -113,6 +124,7 @@ def main():
             browser.open(1400, 1000)
             log_in(browser, service)
             watch_a_run(browser, arguments.keep)
+            clone_a_run(browser)
             stop_and_resume(browser, arguments.keep)
             use_the_keyboard(browser)
             fits(browser)

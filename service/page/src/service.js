@@ -1,9 +1,9 @@
 // The page of the service: what runs, a form for more, and the chosen run.
 import { RunPanel } from "./service_run.js";
-import { showForm } from "./service_form.js";
+import { fillForm, showForm } from "./service_form.js";
 import { bytes, duration, make } from "./text.js";
 
-const panel = new RunPanel(document.getElementById("run"));
+const panel = new RunPanel(document.getElementById("run"), (id) => fillForm(document.getElementById("new"), id));
 const list = document.getElementById("runs");
 let listed = [];
 

@@ -41,6 +41,20 @@ async function readForm(form) {
   return asked;
 }
 
+// Fills the form with what a run of a shipped scene was started from.
+export async function fillForm(form, id) {
+  const answer = await fetch(`/runs/${id}`); // lists of runs shorten long changes
+  if (!answer.ok) return;
+  const run = await answer.json();
+  const put = (field, value) => { form.querySelector("#" + field).value = value; };
+  put("scene", run.scene);
+  put("set", run.set.join("\n"));
+  put("name", run.name);
+  form.querySelector("#scene").dispatchEvent(new Event("change"));
+  form.scrollIntoView({ behavior: "smooth", block: "nearest" });
+  form.querySelector("#set").focus();
+}
+
 export function showForm(form, onStarted) {
   const scene = form.querySelector("#scene"), fault = form.querySelector("#fault"), button = form.querySelector("button");
   const about = new Map([[OWN, "A scene file of yours. It may extend a shipped scene."]]);

@@ -8,8 +8,10 @@ const PLOTS = 2;
 const REFRESH = 3000; // ms between updates of a run in progress
 
 export class RunPanel {
-  constructor(element) {
+  // clone(id): offers the scene and changes of a run for a new one
+  constructor(element, clone) {
     this.element = element;
+    this.clone = clone;
     this.run = null;
     setInterval(() => { if (this.run?.state === "running") this.drawSeries(); }, REFRESH);
   }
@@ -58,6 +60,7 @@ export class RunPanel {
     if (state === "waiting" || state === "running") all.push(button("Stop", () => this.ask("POST", "/stop")));
     if (state === "stopped") all.push(button("Resume", () => this.ask("POST", "/resume")));
     if (state !== "waiting") all.push(button("Show in 3D", () => this.showReport()), make("a", { href: `/runs/${id}/report`, target: "_blank", rel: "noopener" }, "Open report"));
+    if (this.run.scene) all.push(button("Clone", () => this.clone(id)));
     if (state !== "running") all.push(button("Delete", () => { if (confirm(`Delete ${this.run.name} and all its files?`)) this.ask("DELETE", ""); }));
     return all;
   }
