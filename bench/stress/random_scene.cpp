@@ -265,7 +265,7 @@ void Drawing::draw_box() {
       point[k] = side * half[k];
       Json normal = {0, 0, 0};
       normal[k] = -side;
-      Json wall = {{"point", place(point)}, {"normal", normal}};
+      Json wall = {{"point", place(point)}, {"normal", normal}, {"mirror", true}};
       if (k == 0 && side > 0 && travel > 0) {
         wall["speed"] = quantity(speed, "um/h");
         wall["travel"] = quantity(travel, "um");

@@ -15,8 +15,8 @@ constexpr const char* kPlates = R"({
   "cell_types": { "hepatocyte": {} },
   "cells": { "source": "clump", "count": 27, "lattice": "bcc", "jitter": 0.01 },
   "walls": [
-    { "name": "lower", "point": ["0 um", "0 um", "-42 um"], "normal": [0, 0, 1], "speed": "10 um/h", "travel": "14 um" },
-    { "name": "upper", "point": ["0 um", "0 um", "42 um"], "normal": [0, 0, -1], "speed": "10 um/h", "travel": "14 um" }
+    { "name": "lower", "point": ["0 um", "0 um", "-42 um"], "normal": [0, 0, 1], "mirror": true, "speed": "10 um/h", "travel": "14 um" },
+    { "name": "upper", "point": ["0 um", "0 um", "42 um"], "normal": [0, 0, -1], "mirror": true, "speed": "10 um/h", "travel": "14 um" }
   ],
   "motility": { "random": false }, "output": { "every": "6 min" } })";
 
@@ -27,12 +27,12 @@ constexpr const char* kBox = R"({
   "cell_types": { "hepatocyte": {} },
   "cells": { "source": "box", "grid": [3, 3, 3], "spacing": 0.88, "jitter": 0.05 },
   "walls": [
-    { "name": "x low", "point": ["-31.9 um", "0 um", "0 um"], "normal": [1, 0, 0] },
-    { "name": "x high", "point": ["31.9 um", "0 um", "0 um"], "normal": [-1, 0, 0], "speed": "2 um/h", "travel": "12 um" },
-    { "name": "y low", "point": ["0 um", "-31.9 um", "0 um"], "normal": [0, 1, 0] },
-    { "name": "y high", "point": ["0 um", "31.9 um", "0 um"], "normal": [0, -1, 0] },
-    { "name": "z low", "point": ["0 um", "0 um", "-31.9 um"], "normal": [0, 0, 1] },
-    { "name": "z high", "point": ["0 um", "0 um", "31.9 um"], "normal": [0, 0, -1] }
+    { "name": "x low", "point": ["-31.9 um", "0 um", "0 um"], "normal": [1, 0, 0], "mirror": true },
+    { "name": "x high", "point": ["31.9 um", "0 um", "0 um"], "normal": [-1, 0, 0], "mirror": true, "speed": "2 um/h", "travel": "12 um" },
+    { "name": "y low", "point": ["0 um", "-31.9 um", "0 um"], "normal": [0, 1, 0], "mirror": true },
+    { "name": "y high", "point": ["0 um", "31.9 um", "0 um"], "normal": [0, -1, 0], "mirror": true },
+    { "name": "z low", "point": ["0 um", "0 um", "-31.9 um"], "normal": [0, 0, 1], "mirror": true },
+    { "name": "z high", "point": ["0 um", "0 um", "31.9 um"], "normal": [0, 0, -1], "mirror": true }
   ],
   "motility": { "random": false }, "output": { "every": "30 min" } })";
 
@@ -43,8 +43,8 @@ constexpr const char* kSlab = R"({
   "cell_types": { "hepatocyte": {} },
   "cells": { "source": "list", "list": [ { "position": ["0 um", "0 um", "0 um"] } ] },
   "walls": [
-    { "name": "lower", "point": ["0 um", "0 um", "-27 um"], "normal": [0, 0, 1] },
-    { "name": "upper", "point": ["0 um", "0 um", "27 um"], "normal": [0, 0, -1] }
+    { "name": "lower", "point": ["0 um", "0 um", "-27 um"], "normal": [0, 0, 1], "mirror": true },
+    { "name": "upper", "point": ["0 um", "0 um", "27 um"], "normal": [0, 0, -1], "mirror": true }
   ],
   "motility": { "random": false }, "output": { "every": "15 min" } })";
 

@@ -37,7 +37,7 @@ void set_motility(const Scene& scene, coupling::Motility& m) {
 
 /// Sets the moving zoom. No effect with a uniform model ("--set model=dcm" or "cbm").
 void set_zoom(const Scene& scene, coupling::ZoomParams& p) {
-  const CellModel model = scene.model.value_or(scene.cells.model);
+  const CellModel model = model_of(scene);
   if (!scene.moving_zoom || model != CellModel::kZoom) return;
   p = *scene.moving_zoom;
   p.region = scene.zoom;

@@ -41,7 +41,7 @@ LawParameters law_parameters(const Scene& scene, const CellType& type) {
 }
 
 bool may_have_spheres(const Scene& scene) {
-  if (scene.model.value_or(scene.cells.model) != CellModel::kDcm) return true;
+  if (model_of(scene) != CellModel::kDcm) return true;
   return !scene.model && std::ranges::any_of(scene.cells.list, [](const CellEntry& cell) {
     return cell.model == CellModel::kCbm;
   });

@@ -22,7 +22,7 @@ constexpr double kBytesPerBranch = 2000;
 /// Least memory of a cell, bytes: with the smallest mesh among the cell types, since types are not
 /// drawn yet.
 double bytes_per_cell(const Scene& scene) {
-  if (scene.cells.model != CellModel::kDcm) return kBytesPerSphere;
+  if (model_of(scene) != CellModel::kDcm) return kBytesPerSphere;
   int nodes = std::numeric_limits<int>::max();
   for (const auto& [name, type] : scene.cell_types) nodes = std::min(nodes, type.dcm.nodes);
   return kBytesPerNode * nodes;

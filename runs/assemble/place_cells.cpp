@@ -208,21 +208,22 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
                                     std::span<const geometry::Surface> surface,
                                     const contact::Boundary& boundary) {
   const CellsBlock& c = scene.cells;
+  const CellModel model = model_of(scene);
   std::vector<PlacedCell> cells;
   std::vector<std::size_t> zoomed;
-  const auto add = [&](PlacedCell p, CellModel model) {
+  const auto add = [&](PlacedCell p, CellModel own) {
     p.lineage = std::ssize(cells);
-    p.deformable = model == CellModel::kDcm;
-    if (model == CellModel::kZoom) zoomed.push_back(cells.size());
+    p.deformable = own == CellModel::kDcm;
+    if (own == CellModel::kZoom) zoomed.push_back(cells.size());
     cells.push_back(std::move(p));
   };
   if (c.source == CellSource::kList) {
-    for (const CellEntry& e : c.list) add(make_cell(scene, e), e.model.value_or(c.model));
+    for (const CellEntry& e : c.list) add(make_cell(scene, e), e.model.value_or(model));
   } else {
     for (const Vec3& x : generate_centers(scene, lobule, surface, boundary)) {
       const geometry::Surface* shape =
           c.source == CellSource::kMeshes ? &surface[cells.size()] : nullptr;
-      add(generate_cell(scene, std::ssize(cells), x, shape), c.model);
+      add(generate_cell(scene, std::ssize(cells), x, shape), model);
     }
   }
   choose_models(scene, boundary.vessels.network, zoomed, cells);

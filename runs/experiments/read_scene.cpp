@@ -43,7 +43,7 @@ Scene read_scene(const Document& document, const std::string& label) {
   Report report(document);
   read_keys(document, report, [&scene](Visitor& visitor) { describe(visitor, scene); });
   if (scene.name.empty()) scene.name = default_name(label);
-  if (scene.model) scene.cells.model = *scene.model;
+  scene.cells.model = model_of(scene);
   name_the_nameless(scene);
   check_rules(scene, report, experiment_row(scene.experiment).check);
   report.finish();

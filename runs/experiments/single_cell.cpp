@@ -57,7 +57,7 @@ void check_one_deformable_cell(const Scene& scene, Report& report) {
   if (scene.cells.source != CellSource::kList || scene.cells.list.size() != 1)
     report.add_relation({"/experiment", "/cells/list", "/cells"}, name,
                         "looks at one cell: give /cells/list with one entry");
-  if (scene.model.value_or(scene.cells.model) == CellModel::kCbm)
+  if (model_of(scene) == CellModel::kCbm)
     report.add_relation({"/experiment", "/cells/model"}, name,
                         "is for deformable cells: set /cells/model to \"dcm\"");
 }

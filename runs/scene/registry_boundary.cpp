@@ -209,8 +209,9 @@ void describe_wall(Visitor& v, WallEntry& b) {
                    .automatic = "never"},
                   b.opens);
   v.flag({.name = "mirror",
-          .meaning = "true: stands for equal cells on the other side, no adhesion, no friction; "
-                     "false: a surface of its own"},
+          .meaning = "true: a symmetry plane that stands for equal cells on the other side, without "
+                     "adhesion and friction; false: a plate with adhesion and friction of its own",
+          .required = true},
          b.mirror);
   v.real({.name = "adhesion",
           .meaning = "adhesion energy between cell and wall, per area; needs mirror = false",

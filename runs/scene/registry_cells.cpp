@@ -330,7 +330,8 @@ void describe_cells(Visitor& v, CellsBlock& b) {
   choice(v, {.name = "source", .meaning = "where the cells come from"}, b.source);
   choice(v,
          {.name = "model",
-          .meaning = "model of the cells; zoom: DCM inside the zoom regions",
+          .meaning = "model of the cells; zoom: DCM inside the zoom regions, spheres elsewhere",
+          .automatic = "zoom with zoom regions, dcm without",
           .compared = false},
          b.model);
   blocks(v, {.name = "list", .meaning = "cells one by one (source = list)", .item = "cells.list"},

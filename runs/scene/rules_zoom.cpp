@@ -55,7 +55,7 @@ void check_following(const Scene& scene, const Region& r, const std::string& poi
 
 void check_moving(const Scene& scene, Report& report) {
   const MovingZoomBlock& zoom = *scene.moving_zoom;
-  const CellModel model = scene.model.value_or(scene.cells.model);
+  const CellModel model = model_of(scene);
   if (scene.zoom.empty())
     report.add_relation({"/moving_zoom", "/zoom"}, "",
                         "has no region to follow. Give /zoom at least one");

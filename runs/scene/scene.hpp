@@ -138,7 +138,7 @@ struct TypeShare {
 
 struct CellsBlock {
   CellSource source = CellSource::kList;
-  CellModel model = CellModel::kZoom;
+  std::optional<CellModel> model;  ///< empty = deformable, by the zoom regions if there are any
   std::vector<CellEntry> list;
   std::vector<TypeShare> types;                   ///< of generated cells; empty = the only type
   int count = coupling::ClumpParameters{}.count;  ///< clump: cells kept, nearest the centre first
@@ -258,5 +258,11 @@ struct Scene {
   std::string hash;         ///< hash of resolved_json
   std::string start_state;  ///< hash of the state in start_up.from; "" = none
 };
+
+/// Model of the cells without one of their own.
+inline CellModel model_of(const Scene& scene) {
+  const CellModel by_regions = scene.zoom.empty() ? CellModel::kDcm : CellModel::kZoom;
+  return scene.model.value_or(scene.cells.model.value_or(by_regions));
+}
 
 }  // namespace acinus::runs

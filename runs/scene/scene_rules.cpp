@@ -160,17 +160,18 @@ void check_types(const Scene& scene, Report& report) {
 
 void check_cells(const Scene& scene, Report& report) {
   const CellsBlock& cells = scene.cells;
+  const CellModel model = model_of(scene);
   if (cells.source == CellSource::kList) check_list(scene, report);
   check_types(scene, report);
   if (cells.source == CellSource::kLobule && !scene.lobule) {
     report.add_relation({"/cells/source", "/lobule"}, "\"lobule\"",
                         "needs a lobule block (acinus explain lobule)");
   }
-  if (!scene.zoom.empty() && cells.model != CellModel::kZoom && !scene.model) {
+  if (!scene.zoom.empty() && model != CellModel::kZoom && !scene.model) {
     report.add_relation({"/zoom", "/cells/model"}, "",
                         fmt::format("zoom regions need /cells/model = \"zoom\", not \"{}\". Remove "
                                     "the regions (--set zoom=[]) or change the model",
-                                    name_of_choice(cells.model)));
+                                    name_of_choice(model)));
   }
   if (cells.source == CellSource::kMeshes && scene.start_up.enabled) {
     report.add_relation({"/cells/source", "/start_up/enabled"}, "\"meshes\"",
@@ -181,7 +182,7 @@ void check_cells(const Scene& scene, Report& report) {
     check_box(cells.low, cells.high, "/cells/low", "/cells/high", report);
   bool all_chosen = cells.source == CellSource::kList && !cells.list.empty();
   for (const CellEntry& cell : cells.list) all_chosen = all_chosen && cell.model.has_value();
-  if (scene.zoom.empty() && cells.model == CellModel::kZoom && !all_chosen) {
+  if (scene.zoom.empty() && model == CellModel::kZoom && !all_chosen) {
     report.add_relation(
         {scene.model ? "/model" : "/cells/model", "/zoom"}, "\"zoom\"",
         "needs at least one region in /zoom. Add one, or choose \"dcm\" or \"cbm\"");

@@ -25,8 +25,8 @@ double count_final_cells(const Scene& scene) {
 
 /// Expected share of deformable cells: half for zoomed scenes, whose regions are not evaluated.
 double share_deformable(const Scene& scene) {
-  if (scene.cells.model == CellModel::kZoom) return scene.zoom.empty() ? 0 : 0.5;
-  return scene.cells.model == CellModel::kDcm ? 1 : 0;
+  if (model_of(scene) == CellModel::kZoom) return scene.zoom.empty() ? 0 : 0.5;
+  return model_of(scene) == CellModel::kDcm ? 1 : 0;
 }
 
 }  // namespace

@@ -21,13 +21,13 @@ void ExpectedCosts::Sum::add(double v) {
 
 void ExpectedCosts::add(const StudyRun& run, double cpu_s) {
   measured_[run.variant].add(cpu_s);
-  ratio_[run.scene.cells.model].add(cpu_s / estimate_cost(run.scene, run.source >= 0));
+  ratio_[model_of(run.scene)].add(cpu_s / estimate_cost(run.scene, run.source >= 0));
 }
 
 double ExpectedCosts::cpu_s(const StudyRun& run) const {
   const auto found = measured_.find(run.variant);
   if (found != measured_.end()) return found->second.mean();
-  const auto ratio = ratio_.find(run.scene.cells.model);
+  const auto ratio = ratio_.find(model_of(run.scene));
   return estimate_cost(run.scene, run.source >= 0) *
          (ratio == ratio_.end() ? 1 : ratio->second.mean());
 }

@@ -22,7 +22,7 @@ class ExpectedCosts {
   bool is_measured(const StudyRun& run) const { return measured_.contains(run.variant); }
   /// True if a completed run of the same variant or model calibrates the estimate for this one.
   bool has_basis(const StudyRun& run) const {
-    return is_measured(run) || ratio_.contains(run.scene.cells.model);
+    return is_measured(run) || ratio_.contains(model_of(run.scene));
   }
   double cpu_s(const StudyRun& run) const;
 

@@ -190,7 +190,7 @@ TEST(RandomScene, MeetsEverySituation) {
     seen.insert(runs::name_of_choice(s.numerics.integrator));
     seen.insert(s.friction.liquid ? "liquid" : "ecm");
     seen.insert(std::to_string(type_of(s).dcm.nodes));
-    seen.insert("model " + runs::name_of_choice(s.cells.model));
+    seen.insert("model " + runs::name_of_choice(model_of(s)));
     if (s.capsule.enabled) seen.insert("capsule");
     if (!s.walls.empty()) seen.insert("walls");
     if (s.motility.leader_force > 0) seen.insert("leaders");
@@ -247,7 +247,7 @@ class Inspection : public testing::Test {
     {"position": ["0 um", "0 um", "0 um"], "model": "dcm"},
     {"position": ["30 um", "0 um", "0 um"], "model": "dcm"},
     {"position": ["0 um", "30 um", "0 um"], "model": "cbm"}]},
-  "walls": [{"point": ["0 um", "0 um", "-13 um"], "normal": [0, 0, 1]}]})",
+  "walls": [{"point": ["0 um", "0 um", "-13 um"], "normal": [0, 0, 1], "mirror": true}]})",
                                  "two.json")),
         start_(runs::build_world(scene_, Ranks::serial()).world) {
     coupling::World world = start_;

@@ -77,7 +77,7 @@ TEST(CellTypes, FillKeepsEachClearOfWallsByItsOwnRadius) {
       R"("source": "fill", "count": 150, "low": ["-60 um", "-60 um", "0 um"],
          "high": ["60 um", "60 um", "80 um"], "min_distance": "14 um",
          "types": [{"type": "large", "share": 0.5}, {"type": "small", "share": 0.5}])",
-      R"(, "walls": [{"point": ["0 um", "0 um", "0 um"], "normal": [0, 0, 1]}])");
+      R"(, "walls": [{"point": ["0 um", "0 um", "0 um"], "normal": [0, 0, 1], "mirror": true}])");
   const BuiltWorld built = build_world(scene, Ranks::serial());
   const auto cells = place_cells(scene, nullptr, {}, built.world.params.boundary);
   ASSERT_EQ(cells.size(), 150u);

@@ -181,7 +181,7 @@ TEST(Defaults, OfBlocksThatMayBeAbsentAreThoseOfTheLibrary) {
 
 TEST(Defaults, OfObstaclesAreThoseOfTheLibrary) {
   const contact::Boundary boundary = boundary_of(
-      {"walls=[{}]", "capsule={\"radius\": \"40 um\"}", "pipette={\"radius\": \"5 um\"}"});
+      {"walls=[{\"mirror\": true}]", "capsule={\"radius\": \"40 um\"}", "pipette={\"radius\": \"5 um\"}"});
   ASSERT_EQ(boundary.planes.size(), 1u);
   EXPECT_EQ(fields(boundary.planes[0]), fields(contact::Plane{}));
   EXPECT_TRUE(boundary.planes[0].material.mirror);

@@ -178,6 +178,7 @@ Scene on_wall(const std::string& model, const std::string& wall,
   return parse_scene(text, "wall.json", ".", set);
 }
 
+const std::string kMirror = R"(, "mirror": true)";
 const std::string kSticky = R"(, "mirror": false, "adhesion": "1e-5 J/m^2")";
 
 struct OneCell {
@@ -222,7 +223,7 @@ TEST(AdhesiveWall, SphereSinksToItsJkrRest) {
 
 TEST(AdhesiveWall, DeformableCellFlattens) {
   const OneCell out = simulate(on_wall("dcm", kSticky, {}), 6 * 3600);
-  const OneCell mirror = simulate(on_wall("dcm", "", {}), 6 * 3600);
+  const OneCell mirror = simulate(on_wall("dcm", kMirror, {}), 6 * 3600);
   std::printf(
       "DCM cell after 6 h: height %.2f um on the adhesive wall, %.2f um on a mirror; height/width "
       "%.3f and %.3f; contact area %.1f and %.1f um^2\n",
@@ -242,7 +243,7 @@ const std::string kPullUp = R"(cells.list.0.pull=["0 nN", "0 nN", "0.1 nN"])";
 TEST(AdhesiveWall, HoldsACellThatAMirrorLetsGo) {
   for (const char* model : {"dcm", "cbm"}) {
     const double held = simulate(on_wall(model, kSticky, {kPullUp}), 6 * 3600).end.z();
-    const double lost = simulate(on_wall(model, "", {kPullUp}), 6 * 3600).end.z();
+    const double lost = simulate(on_wall(model, kMirror, {kPullUp}), 6 * 3600).end.z();
     std::printf("%s cell pulled up with 0.1 nN for 6 h: z = %.2f um held, %.2f um at a mirror\n",
                 model, held, lost);
     EXPECT_LT(held, 12.5) << model;

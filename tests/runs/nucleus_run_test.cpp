@@ -15,9 +15,9 @@ constexpr const char* kBetweenPlates = R"({
   "cell_types": {"cell": {"dcm": {"nodes": 162, "nucleus": NUCLEUS}}},
   "cells": {"list": [{"position": ["0 um", "0 um", "0 um"]}]},
   "motility": {"random": false},
-  "walls": [{"point": ["0 um", "0 um", "-12 um"], "normal": [0, 0, 1]},
+  "walls": [{"point": ["0 um", "0 um", "-12 um"], "normal": [0, 0, 1], "mirror": true},
             {"point": ["0 um", "0 um", "12 um"], "normal": [0, 0, -1], "speed": "12 um/h",
-             "travel": "10 um"}],
+             "travel": "10 um", "mirror": true}],
   "output": {"every": "10 min"}
 })";
 

@@ -156,9 +156,9 @@ TEST(SceneDifferences, YoungerKeysWithTheirDefaultAreNoneInListsEither) {
     return list_scene_differences(then, R"({"walls": [{"name": "a")" + wall + R"(}], "seed": 1})",
                                   [](const std::string&) { return false; });
   };
-  EXPECT_TRUE(differences(R"(, "mirror": true)").empty());
+  EXPECT_TRUE(differences(R"(, "adhesion": "0 J/m^2")").empty());
   EXPECT_TRUE(differences(R"(, "speed": "0 um/h", "opens": "auto")").empty());
-  EXPECT_EQ(differences(R"(, "mirror": false)").size(), 1u);
+  EXPECT_EQ(differences(R"(, "speed": "1 um/h")").size(), 1u);
   EXPECT_EQ(differences(R"(, "of_another_version": true)").size(), 1u);
 }
 

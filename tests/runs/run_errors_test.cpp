@@ -155,7 +155,7 @@ TEST_F(RunErrors, ARunThatCannotGoOnExitsWithThreeAndNamesTheCell) {
   const Words crash{
       "--set",
       R"(walls=[{"name": "ram", "point": ["-52 um", "0 um", "0 um"], "normal": [1, 0, 0],)"
-      R"( "speed": "60 um/min", "travel": "100 um"}])",
+      R"( "speed": "60 um/min", "travel": "100 um", "mirror": true}])",
       "--set", "time.min_step=20 s"};
   const Outcome outcome = call(run_words("pair.json", "a", crash));
   EXPECT_EQ(outcome.code, 3) << outcome.text;
@@ -240,7 +240,7 @@ TEST_F(RunErrors, AWallThatOverrunsASphereStopsTheRun) {
        "--set", "cell_types.hepatocyte.cbm.ecm_friction=1e12 N s/m^3", "--set", "time.max_move=0",
        "--set", "time.adaptive=false", "--set", "output.every=5 min", "--set",
        R"(walls=[{"name": "ram", "point": ["-12 um", "0 um", "0 um"], "normal": [1, 0, 0],)"
-       R"( "speed": "2 um/min", "travel": "30 um"}])"}));
+       R"( "speed": "2 um/min", "travel": "30 um", "mirror": true}])"}));
   EXPECT_EQ(outcome.code, 3) << outcome.text;
   EXPECT_CONTAINS(outcome.text, "CBM cell 0 has its centre");
   EXPECT_CONTAINS(outcome.text, "inside wall \"ram\"");
@@ -261,7 +261,7 @@ TEST_F(RunErrors, CellsThatDoNotFitAreNamedWithTheirPlace) {
   expect_refused({"vessels.file=vessel.swc"},
                  {"pair.json", "/cells/list/0", "(0, 0, 0) um", "16 um inside vessel segment",
                   "at most 0.3 um", "Move"});
-  expect_refused({R"(walls=[{"name": "floor", "point": ["0 um", "0 um", "5 um"]}])"},
+  expect_refused({R"(walls=[{"name": "floor", "mirror": true, "point": ["0 um", "0 um", "5 um"]}])"},
                  {"/cells/list/1", "17 um inside wall \"floor\"", "at most 0.3 um", "Move"});
   expect_refused({R"(capsule={"radius": "20 um"})"},
                  {"/cells/list/1", "15.5 um inside the wall of the capsule", "Move"});

@@ -91,9 +91,9 @@ constexpr const char* kPressed = R"({
   "cells": {"model": "dcm", "list": [{"position": ["0 um", "0 um", "-12 um"]},
                                      {"position": ["0 um", "0 um", "12 um"]}]},
   "walls": [{"point": ["0 um", "0 um", "-24 um"], "normal": [0, 0, 1], "speed": "15 um/h",
-             "travel": "2 um", "opens": "10 min"},
+             "travel": "2 um", "opens": "10 min", "mirror": true},
             {"point": ["0 um", "0 um", "24 um"], "normal": [0, 0, -1], "speed": "15 um/h",
-             "travel": "2 um", "opens": "10 min"}],
+             "travel": "2 um", "opens": "10 min", "mirror": true}],
   "output": {"every": "7 min", "after_opening": 2}
 })";
 

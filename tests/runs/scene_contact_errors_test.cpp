@@ -26,7 +26,7 @@ TEST(SceneContactErrors, MaugisDugdaleActsBetweenTriangles) {
   };
   const std::string start = R"(scene.json:1:22 /contact/law = "maugis-dugdale": )";
   EXPECT_EQ(failure(law("")), "");
-  EXPECT_EQ(failure(law(R"(, "walls": [{}])")), "");
+  EXPECT_EQ(failure(law(R"(, "walls": [{"mirror": true}])")), "");
   EXPECT_EQ(failure(law(""), {"model=cbm"}), "");
   EXPECT_EQ(failure(law(""), {"contact.quadrature=nodes"}),
             start + "acts between triangles. Set /contact/quadrature to \"3-point\"");

@@ -68,6 +68,24 @@ TEST(SceneErrors, AllMistakesAreReportedAtOnceInOrder) {
             "scene.json:5:38 /motility/random = \"false\": must be true or false, without quotes");
 }
 
+TEST(SceneErrors, AWallSaysIfItIsAMirror) {
+  const auto wall = [](const std::string& body) { return with_block("\"walls\": [" + body + "]"); };
+  const std::string missing =
+      "/walls/0/mirror: is missing: true: a symmetry plane that stands for equal cells on the other "
+      "side, without adhesion and friction; false: a plate with adhesion and friction of its own "
+      "(acinus explain wall.mirror)";
+  EXPECT_EQ(failure(wall("{}")), "scene.json:1:13 " + missing);
+  EXPECT_EQ(failure(kMinimal, {"walls=[{}]"}), "--set walls=[{}]: " + missing);
+  // One fault, not a second one on keys that depend on it.
+  EXPECT_EQ(failure(wall(R"({"adhesion": "1e-5 J/m^2", "young": "600 Pa"})")),
+            "scene.json:1:13 " + missing);
+  EXPECT_EQ(failure(wall(R"({"mirror": "false"})")),
+            R"(scene.json:1:24 /walls/0/mirror = "false": must be true or false, without quotes)");
+  EXPECT_CONTAINS(failure(wall(R"({"mirror": true}, {"name": "b"})")), "/walls/1/mirror: is missing");
+  for (const char* body : {R"({"mirror": true})", R"({"mirror": false})"})
+    EXPECT_EQ(failure(wall(body)), "") << body;
+}
+
 TEST(SceneErrors, MissingKeysAreNamed) {
   EXPECT_EQ(failure("{}"),
             "scene.json:1:1 /time/end: is missing: simulated time after t = 0, e.g. \"24 h\" "
@@ -75,9 +93,7 @@ TEST(SceneErrors, MissingKeysAreNamed) {
             "scene.json:1:1 /cell_types: is missing: kinds of cells by name; at least one "
             "(acinus explain cell_types)\n"
             "scene.json:1:1 /cells/list: has no entry, but /cells/source = \"list\". Add cells, or "
-            "take another source: clump, box, fill, lobule\n"
-            "scene.json:1:1 /cells/model = \"zoom\": needs at least one region in /zoom. Add one, "
-            "or choose \"dcm\" or \"cbm\"");
+            "take another source: clump, box, fill, lobule");
   EXPECT_EQ(failure(minimal("\"position\": [\"0 um\", \"0 um\", \"0 um\"]", "")),
             "scene.json:4:38 /cells/list/0/position: is missing: centre of the cell, e.g. "
             "\"12 um\" (acinus explain cells.list.position)");
@@ -248,10 +264,10 @@ TEST(SceneErrors, OnlyOneIntegratorFollowsLife) {
 
 TEST(SceneErrors, OnlyWallsThatAreNoMirrorsAdhere) {
   const auto wall = [](const std::string& body) { return with_block("\"walls\": [" + body + "]"); };
-  EXPECT_EQ(failure(wall(R"({"adhesion": "1e-5 J/m^2"})")),
+  EXPECT_EQ(failure(wall(R"({"adhesion": "1e-5 J/m^2", "mirror": true})")),
             R"(scene.json:1:26 /walls/0/adhesion = "1e-5 J/m^2": a mirror wall stands for equal )"
             R"(cells and does not adhere. Set /walls/0/mirror to false)");
-  EXPECT_EQ(failure(wall(R"({"young": "600 Pa"})")),
+  EXPECT_EQ(failure(wall(R"({"young": "600 Pa", "mirror": true})")),
             R"(scene.json:1:23 /walls/0/young = "600 Pa": is used only with mirror = false. )"
             "Remove it");
   EXPECT_EQ(failure(wall(R"({"mirror": false, "adhesion": "1e-5 J/m^2", "young": "600 Pa"})")), "");
@@ -339,13 +355,13 @@ TEST(SceneErrors, RulesBetweenKeys) {
       {"relaxation of what is never let go", with_block(R"("experiment": "relaxation")"),
        R"(scene.json:1:17 /experiment = "relaxation": needs a wall or a capsule that opens )"
        R"(before /time/end (acinus explain wall.opens))"},
-      {"wall normal", wall(R"({"normal": [0, 0, 0]})"),
+      {"wall normal", wall(R"({"normal": [0, 0, 0], "mirror": true})"),
        R"(scene.json:1:24 /walls/0/normal = [0, 0, 0]: must not be zero: it is the )"
        R"(direction of the plane's normal)"},
-      {"wall that moves nowhere", wall(R"({"speed": "1 um/h"})"),
+      {"wall that moves nowhere", wall(R"({"speed": "1 um/h", "mirror": true})"),
        R"(scene.json:1:23 /walls/0/travel = "0 um": must be > 0 um for a wall that moves)"},
-      {"wall names", wall(R"({"name": "a"}, {"name": "a"})"),
-       R"(scene.json:1:37 /walls/1/name = "a": another wall has this name)"},
+      {"wall names", wall(R"({"name": "a", "mirror": true}, {"name": "a", "mirror": true})"),
+       R"(scene.json:1:53 /walls/1/name = "a": another wall has this name)"},
       {"crop",
        with_block(R"("vessels": {"crop": [["0 um", "3 um", "0 um"], ["1 um", "2 um", "3 um"]], )"
                   R"("file": ")" +
@@ -354,7 +370,7 @@ TEST(SceneErrors, RulesBetweenKeys) {
        R"(/vessels/crop/1/1 = "2 um")"},
       {"half a crop", with_block(R"("vessels": {"crop": [1]})"),
        "scene.json:1:23 /vessels/crop = [1]: must be a list of two corners, the lower one first"},
-      {"wall name", wall(R"({"name": "a/b"})"),
+      {"wall name", wall(R"({"name": "a/b", "mirror": true})"),
        R"(scene.json:1:22 /walls/0/name = "a/b": must be a name of letters, digits, _ and -, )"
        "with spaces inside if wanted"},
       {"zoom box",

@@ -155,6 +155,24 @@ TEST(Scene, WithoutACycleNothingGrows) {
   EXPECT_EQ(scene.time.until_cells, 0);
 }
 
+TEST(Scene, CellsAreDeformableWhereNothingSaysTheirModel) {
+  const std::string bare = changed(kMinimal, R"("model": "dcm", )", "");
+  const auto model = [&bare](const std::vector<std::string>& set) {
+    return parse_scene(bare, "scene.json", ".", set).cells.model;
+  };
+  const std::string regions = R"(zoom=[{"kind": "all"}])";
+  EXPECT_EQ(model({}), CellModel::kDcm);
+  EXPECT_EQ(model({"zoom=[]"}), CellModel::kDcm);
+  EXPECT_EQ(model({"cells.model=auto"}), CellModel::kDcm);
+  EXPECT_EQ(model({regions}), CellModel::kZoom);
+  EXPECT_EQ(model({regions, "cells.model=auto"}), CellModel::kZoom);
+  EXPECT_EQ(model({"cells.model=cbm"}), CellModel::kCbm);
+  EXPECT_EQ(model({regions, "model=cbm"}), CellModel::kCbm);
+  // The same scene as one that says it.
+  EXPECT_EQ(parse_scene(bare, "scene.json").hash, parse_scene(kMinimal, "scene.json").hash);
+  EXPECT_CONTAINS(failure(bare, {"cells.model=zoom"}), "needs at least one region in /zoom");
+}
+
 TEST(Scene, ModelReplacesTheModelOfAnyScene) {
   const auto model = [](const char* text, const std::string& to) {
     return parse_scene(text, "scene.json", ".", {"model=" + to}).cells.model;
@@ -245,7 +263,7 @@ TEST(SceneSet, ReplacesAnyValue) {
   EXPECT_TRUE(scene({"capsule.radius=50 um"}).capsule.enabled);
   EXPECT_FALSE(scene({"capsule.radius=50 um", "capsule=null"}).capsule.enabled);
   EXPECT_EQ(scene({"capsule=null", "capsule.radius=50 um"}).capsule.radius, 50);
-  EXPECT_EQ(scene({"walls=[{\"name\": \"w\"}]"}).walls[0].name, "w");
+  EXPECT_EQ(scene({"walls=[{\"name\": \"w\", \"mirror\": true}]"}).walls[0].name, "w");
   EXPECT_EQ(scene({"description=a, b: c"}).description, "a, b: c");
   EXPECT_EQ(scene({"description="}).description, "");
   EXPECT_EQ(scene({"seed=1", "seed=2"}).seed, 2u);
@@ -462,7 +480,7 @@ TEST(ShippedScenes, EveryModelCanBeChosenFromOutside) {
         EXPECT_CONTAINS(file_failure(scene.file, set), "is for deformable cells");
         continue;
       }
-      EXPECT_NO_THROW(EXPECT_EQ(name_of_choice(read_scene(scene.file, set).cells.model), model))
+      EXPECT_NO_THROW(EXPECT_EQ(name_of_choice(model_of(read_scene(scene.file, set))), model))
           << file_failure(scene.file, set);
     }
   }

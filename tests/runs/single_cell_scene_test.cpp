@@ -99,7 +99,7 @@ TEST(PipetteScene, SuctionIsForDeformableCells) {
 
 TEST(PlatesScene, NeedsTwoPlatesAndOneCell) {
   const auto plates = [](const std::string& second) {
-    return with_block(R"("experiment": "plates", "walls": [{"normal": [0, 0, 2]}, {"normal": )" +
+    return with_block(R"("experiment": "plates", "walls": [{"normal": [0, 0, 2], "mirror": true}, {"mirror": true, "normal": )" +
                       second + "}]");
   };
   EXPECT_EQ(failure(plates("[0, 0, -1]")), "");

@@ -185,7 +185,7 @@ TEST_F(StudyProgram, ARefusedRunIsReportedWithItsWholeCause) {
 TEST_F(StudyProgram, WhatWaitsForAStartThatFailedNamesTheFirstCause) {
   std::string shared = kShared;
   const std::string before = "\"start_up.enabled\": true";
-  shared.insert(shared.find(before), R"("walls": [{"point": ["0 um", "0 um", "2 um"]}], )");
+  shared.insert(shared.find(before), R"("walls": [{"mirror": true, "point": ["0 um", "0 um", "2 um"]}], )");
   write("broken.json", shared);
   const Outcome o = call(words("broken.json", "s"));
   EXPECT_EQ(o.code, 3) << o.text;

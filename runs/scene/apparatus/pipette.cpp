@@ -77,7 +77,7 @@ void check_tube(const PipetteBlock& p, Report& report) {
 void check_suction(const Scene& scene, const PipetteBlock& p, Report& report) {
   check_course(p.suction, "/pipette/suction", report);
   if (!has_suction(p)) return;
-  if (scene.model.value_or(scene.cells.model) == CellModel::kCbm)
+  if (model_of(scene) == CellModel::kCbm)
     report.add_relation({"/pipette/suction", "/cells/model"}, "",
                         "is for deformable cells: set /cells/model to \"dcm\"");
   if (scene.life.sleep)

@@ -108,7 +108,7 @@ void add_pulls(const Scene& scene, coupling::Params& params) {
 }  // namespace
 
 CellModel model_of(const Scene& scene, const CellEntry& cell) {
-  return cell.model.value_or(scene.model.value_or(scene.cells.model));
+  return cell.model.value_or(model_of(scene));
 }
 
 const DeviceBlock kPullsBlock{"pulls", describe_pulls_block, check_pulls, add_pulls};

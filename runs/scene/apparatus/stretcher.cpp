@@ -90,7 +90,7 @@ void check_stretcher(const Scene& scene, Report& report) {
                                     "a cell out of the light",
                                     s.beams.medium));
   if (s.axis.norm() == 0) report.add_relation({"/stretcher/axis"}, "[0, 0, 0]", "has no direction");
-  if (scene.model.value_or(scene.cells.model) == CellModel::kCbm)
+  if (model_of(scene) == CellModel::kCbm)
     report.add_relation({"/stretcher", "/cells/model"}, "",
                         "is for deformable cells: set /cells/model to \"dcm\"");
   if (scene.life.sleep)
