@@ -155,6 +155,10 @@ Command add_run(CLI::App& app, const std::string& command_line) {
   command->add_flag("--report", arguments->report,
                     "at the end write report.html into the run folder, a page for the browser");
   CLI::Option* quiet = command->add_flag("--quiet", run.quiet, "warnings and errors only");
+  command
+      ->add_flag("--verbose", run.verbose,
+                 "also print steps, rates and work that was skipped, as run.log has it")
+      ->excludes(quiet);
   command->add_option("--progress", arguments->progress, "form of the progress lines")
       ->type_name("json")
       ->check(CLI::IsMember({"json"}))

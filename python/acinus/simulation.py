@@ -136,7 +136,8 @@ def calibrate(scene, out, set=None, cells=0, relaxation=True, threads=1):
 def compare(*runs):
     """`acinus compare`: how runs differ from the first one, one row per run and quantity.
 
-    runs: run folders or acinus.Run. difference is relative unless absolute is True. A row whose not_measured is not empty is no
+    runs: run folders or acinus.Run. change is that of the value, relative to the reference, with its sign. rms is the difference over
+    time, of positions and cell_ quantities over cells. difference is the rms, else the size of the change; it is relative unless absolute is True. A row whose not_measured is not empty is no
     ground for a verdict: it says why, for example that a run failed or was stopped before its end. Such things are warned of too.
     """
     folders = [r.folder if isinstance(r, Run) else os.fspath(r) for r in runs]
@@ -144,6 +145,6 @@ def compare(*runs):
     for note in notes:
         warnings.warn(note, stacklevel=2)
     kinds = {"run": object, "quantity": object, "unit": object, "reference": float, "value": float, "difference": float, "absolute": bool,
-             "not_measured": object}
+             "not_measured": object, "change": float, "rms": float}
     columns = {name: np.array([row[k] for row in rows], dtype=kind) for k, (name, kind) in enumerate(kinds.items())}
     return make_table(columns, {})

@@ -159,7 +159,7 @@ py::tuple compare(const std::vector<std::string>& folders) {
   for (std::size_t r = 0; r < c.difference.size(); ++r)
     for (const runs::Difference& d : c.difference[r])
       rows.append(py::make_tuple(c.runs[r + 1], d.name, d.unit, d.reference, d.value, d.difference,
-                                 d.absolute, d.not_measured));
+                                 d.absolute, d.not_measured, d.change(), d.rms()));
   return py::make_tuple(rows, c.notes);
 }
 

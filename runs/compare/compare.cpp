@@ -15,8 +15,6 @@
 #include "runs/compare/compared_runs.hpp"
 #include "runs/scene/differences.hpp"
 #include "runs/scene/entries.hpp"
-#include "runs/scene/writer.hpp"
-#include "runs/session/stage.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -123,22 +121,25 @@ struct DifferenceTable {
                   kNone,
                   false,
                   {},
-                  fmt::format("{} was not measured in every frame of all runs", name)});
+                  fmt::format("{} was not measured in every frame of all runs", name),
+                  false});
   }
-  /// Adds a relative difference.
+  /// Adds an rms beside two values.
   /// @param difference    relative to the reference
   /// @param not_measured  reason for a missing verdict, empty if there is a verdict
-  void relative(std::size_t run, const Quantity& q, double difference,
-                const std::string& not_measured = {}) const {
-    add(run, {q.name, q.unit, q.reference, q.value, difference, false, {}, not_measured});
+  void rms(std::size_t run, const Quantity& q, double difference,
+           const std::string& not_measured = {}) const {
+    add(run, {q.name, q.unit, q.reference, q.value, difference, false, {}, not_measured, true});
   }
-  /// Adds the relative difference of two values.
-  void relative(std::size_t run, const Quantity& q) const {
-    relative(run, q, ratio(std::abs(q.value - q.reference), std::abs(q.reference)));
+  /// Adds the relative change of a value.
+  void change(std::size_t run, const Quantity& q, const std::string& not_measured = {}) const {
+    const double change = ratio(std::abs(q.value - q.reference), std::abs(q.reference));
+    add(run, {q.name, q.unit, q.reference, q.value, change, false, {}, not_measured, false});
   }
+  /// Adds an rms in units of the quantity.
   void absolute(std::size_t run, const std::string& name, const std::string& unit,
                 double difference, const std::string& not_measured = {}) const {
-    add(run, {name, unit, 0, difference, difference, true, {}, not_measured});
+    add(run, {name, unit, 0, difference, difference, true, {}, not_measured, true});
   }
 };
 
@@ -159,8 +160,8 @@ double rms_over_time(const std::vector<double>& reference, const std::vector<dou
 }
 
 void record_trace(const DifferenceTable& record, std::size_t run, const Trace& t) {
-  record.relative(run, {t.name, t.unit, average(t.value[0]), average(t.value[run])},
-                  rms_over_time(t.value[0], t.value[run]));
+  record.rms(run, {t.name, t.unit, average(t.value[0]), average(t.value[run])},
+             rms_over_time(t.value[0], t.value[run]));
 }
 
 /// Series of the summary at the compared frames; empty if the run lacks it or any value is not
@@ -253,19 +254,19 @@ void record_cells(const DifferenceTable& record, std::size_t r, const Traces& t)
     const double rms = rms_by_lineage(
         reference, end,
         [&](const CellRecord& a, const CellRecord& b) { return std::pow(a.*what - b.*what, 2); });
-    record.relative(r, {name, unit, size, rms_of(end, what)}, ratio(rms, size), apart);
+    record.rms(r, {name, unit, size, rms_of(end, what)}, ratio(rms, size), apart);
   };
   const TissueCenter middle = middle_of(reference);
   const double density = density_in(reference, middle), here = density_in(end, middle);
-  record.relative(r, {"cells", "1", t.count.value[0].back(), t.count.value[r].back()});
+  record.change(r, {"cells", "1", t.count.value[0].back(), t.count.value[r].back()});
   record.absolute(r, "positions", "um",
                   rms_by_lineage(reference, end,
                                  [](const CellRecord& a, const CellRecord& b) {
                                    return (a.center - b.center).squaredNorm();
                                  }),
                   apart);
-  record.relative(r, {"density", "1/mm^3", density, here}, ratio(std::abs(here - density), density),
-                  std::isfinite(density) ? "" : "the density of a single cell is not defined");
+  record.change(r, {"density", "1/mm^3", density, here},
+                std::isfinite(density) ? "" : "the density of a single cell is not defined");
   record_trace(record, r, t.pressure);
   by_cell("cell_pressure", "Pa", &CellRecord::pressure);
   record_trace(record, r, t.force);
@@ -318,20 +319,29 @@ void record_shortfalls(const std::vector<ComparedRun>& runs, std::optional<doubl
 
 const std::map<std::string, std::string>& comparable_quantities() {
   static const std::map<std::string, std::string> names{
-      {"cells", "number of cells at the end"},
-      {"positions", "rms distance of the same cells at the end, um"},
-      {"density", "cells per volume where the reference has its inner half, at the end"},
+      {"cells", "number of cells at the end, change"},
+      {"positions", "distance of the same cells at the end, um, rms over cells"},
+      {"density", "cells per volume where the reference has its inner half, at the end, change"},
       {"pressure", "mean contact pressure, rms over time"},
-      {"cell_pressure", "contact pressure of the same cells at the end, rms"},
+      {"cell_pressure", "contact pressure of the same cells at the end, rms over cells"},
       {"contact_force", "mean contact force of a cell, rms over time"},
-      {"cell_force", "contact force of the same cells at the end, rms"},
+      {"cell_force", "contact force of the same cells at the end, rms over cells"},
       {"contacts", "mean number of cells a cell touches, rms over time"},
       {"lesion_area", "lesion area by the nearest cells (closed: below 0.05), rms over time"},
       {"flooded_area", "lesion area that is open to the central vein, rms over time"},
       {"overlap", "overlap of the central cell of a compressed clump, rms over time"},
       {"normal_force", "normal forces on it, rms over time"},
-      {"cpu", "CPU time"}};
+      {"cpu", "CPU time, change"}};
   return names;
+}
+
+double Difference::change() const {
+  return absolute ? std::numeric_limits<double>::quiet_NaN()
+                  : ratio(value - reference, std::abs(reference));
+}
+
+double Difference::rms() const {
+  return is_rms ? difference : std::numeric_limits<double>::quiet_NaN();
 }
 
 bool Comparison::passes() const {
@@ -360,41 +370,10 @@ Comparison compare_runs(const std::vector<std::string>& folders,
   c.trace = {traces.count, traces.pressure, traces.force, traces.contacts};
   compare_measures(runs, record, c);
   for (std::size_t r = 1; r < runs.size(); ++r)
-    record.relative(r, {"cpu", "s", runs[0].summary.cpu_s, runs[r].summary.cpu_s});
+    record.change(r, {"cpu", "s", runs[0].summary.cpu_s, runs[r].summary.cpu_s});
   for (std::size_t r = 1; r < runs.size(); ++r) record.add_missing(r);
   describe_runs(runs, traces.end, until, c);
   return c;
-}
-
-int run_models(const Scene& scene, const CompareScenes& options,
-               std::vector<std::string>& folders) {
-  struct Model {
-    const char* folder;
-    CellModel model;
-    bool corrected;
-  };
-  std::vector<Model> models{{"dcm", CellModel::kDcm, false}, {"cbm", CellModel::kCbm, false}};
-  if (!options.law.empty()) models.push_back({"cbm_calibrated", CellModel::kCbm, true});
-  for (const Model& m : models) {
-    Scene s = scene;
-    s.model = s.cells.model = m.model;
-    for (auto& [name, type] : s.cell_types) {
-      type.cbm.stiffness_correction = m.corrected ? options.law : "none";
-      if (options.equal_drag) type.cbm.medium_friction = type.dcm.medium_friction;
-    }
-    if (options.equal_drag) {
-      if (!m.corrected) s.friction.cbm_cbm = s.contact.cell_friction;
-      s.friction.cbm_vessel = s.friction.dcm_vessel;
-    }
-    set_canonical(s);
-    const std::string folder = options.folder + "/" + m.folder;
-    folders.push_back(folder);
-    // The law's file may hold another law than it did; its name is all that a scene's hash knows.
-    if (const int stop = run_stage(
-            s, {folder, options.threads, options.quiet, m.corrected, options.command_line}))
-      return stop;
-  }
-  return 0;
 }
 
 }  // namespace acinus::runs

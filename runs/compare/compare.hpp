@@ -15,10 +15,17 @@ struct Difference {
   std::string name;  ///< as in --tolerance
   std::string unit;
   double reference = 0, value = 0;
-  double difference = 0;            ///< |value - reference| / |reference|, or absolute
+  /// Judged difference: the rms, else the size of the change. Relative to the reference, or
+  /// absolute.
+  double difference = 0;
   bool absolute = false;            ///< difference is in `unit`, as for distances
   std::optional<double> tolerance;  ///< of the difference
   std::string not_measured;  ///< reason for a missing verdict, which never passes; empty = measured
+  bool is_rms = false;       ///< difference is an rms, over time or over cells
+  /// Change of the value relative to the reference, with its sign; NaN for absolute differences.
+  double change() const;
+  /// Rms over time or over cells; NaN for quantities judged by their change.
+  double rms() const;
   bool passes() const { return !tolerance || (not_measured.empty() && difference <= *tolerance); }
 };
 

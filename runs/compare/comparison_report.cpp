@@ -21,17 +21,27 @@ OrderedJson number_text(double v) {
 
 std::string show_number(double v) { return std::isnan(v) ? "-" : fmt::format("{:.5g}", v); }
 
-std::string show(const Difference& d) {
-  if (d.absolute) return fmt::format("{:.3g} {}", d.difference, d.unit);
-  return std::isfinite(d.difference) ? fmt::format("{:.1f} %", 100 * d.difference) : "undefined";
+std::string show_change(const Difference& d) {
+  if (std::isinf(d.change())) return "undefined";  // the reference is 0
+  return std::isnan(d.change()) ? "-" : fmt::format("{:+.1f} %", 100 * d.change());
 }
+
+std::string show_rms(const Difference& d) {
+  if (std::isinf(d.rms())) return "undefined";
+  if (std::isnan(d.rms())) return "-";
+  return d.absolute ? fmt::format("{:.3g} {}", d.rms(), d.unit)
+                    : fmt::format("{:.1f} %", 100 * d.rms());
+}
+
+const char* judged_column(const Difference& d) { return d.is_rms ? "rms" : "change"; }
 
 std::string verdict(const Difference& d) {
   if (!d.tolerance) return "";
-  return fmt::format("{} ({})",
+  return fmt::format("{} ({} at most {})",
                      !d.not_measured.empty() ? "NOT MEASURED"
                      : d.passes()            ? "within"
                                              : "BEYOND",
+                     judged_column(d),
                      d.absolute ? fmt::format("{:g} {}", *d.tolerance, d.unit)
                                 : fmt::format("{:g} %", 100 * *d.tolerance));
 }
@@ -59,13 +69,16 @@ std::string comparison_table(const Comparison& c) {
       t += fmt::format("drag in {}: {} {:.4g} nN s/um per free cell, {} between cells\n", c.runs[r],
                        name_of_choice(d.model), d.medium, show_friction(d.cell_friction));
   for (std::size_t r = 0; r < c.difference.size(); ++r) {
-    t += fmt::format("\n{}\n  {:14} {:>12} {:>12} {:7} {:>12}  {}\n", c.runs[r + 1], "quantity",
-                     "reference", "here", "unit", "difference", "verdict");
+    t += fmt::format("\n{}\n  {:14} {:>12} {:>12} {:7} {:>10} {:>10}  {}\n", c.runs[r + 1],
+                     "quantity", "reference", "this run", "unit", "change", "rms", "verdict");
     for (const Difference& d : c.difference[r])
-      t += fmt::format("  {:14} {:>12} {:>12} {:7} {:>12}  {}\n", d.name,
-                       d.absolute ? "-" : show_number(d.reference), show_number(d.value), d.unit,
-                       show(d), verdict(d));
+      t += fmt::format("  {:14} {:>12} {:>12} {:7} {:>10} {:>10}  {}\n", d.name,
+                       d.absolute ? "-" : show_number(d.reference),
+                       d.absolute ? "-" : show_number(d.value), d.unit, show_change(d), show_rms(d),
+                       verdict(d));
   }
+  t += "\nchange: of the values shown, with its sign. rms: difference over time, of positions and "
+       "cell_ quantities over cells.\n";
   const std::set<std::string> reasons = reasons_of(c);
   for (const std::string& why : reasons) t += "not measured: " + why + "\n";
   for (const std::string& note : c.notes)
@@ -97,7 +110,10 @@ void write_comparison(const Comparison& c, const std::string& file) {
                       {"reference", number_text(d.reference)},
                       {"value", number_text(d.value)},
                       {"difference", number_text(d.difference)},
-                      {"absolute", d.absolute}};
+                      {"absolute", d.absolute},
+                      {"change", number_text(d.change())},
+                      {"rms", number_text(d.rms())},
+                      {"judged", judged_column(d)}};
       if (d.tolerance) {
         row["tolerance"] = *d.tolerance;
         row["passes"] = d.passes();

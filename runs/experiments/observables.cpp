@@ -33,7 +33,10 @@ List tissue() {
             {"cells_dcm", "1", "number of deformable cells"},
             {"cells_cbm", "1", "number of spheres"},
             {"divisions", "1", "divisions so far"},
-            {"deaths", "1", "deaths so far"}};
+            {"deaths", "1", "deaths so far"},
+            {"slowest_growth", "1",
+             "smallest growth rate of a cell over its free rate, by inhibition; 1 without"},
+            {"resting_cells", "1", "cells in the cycle that a rule keeps from growing"}};
   append(list, pressures());
   append(
       list,

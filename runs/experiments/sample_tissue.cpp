@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/sphere.hpp"
+#include "coupling/life/cell_cycle.hpp"
+#include "coupling/life/density.hpp"
 #include "coupling/measure/contact_forces.hpp"
+#include "coupling/world/cell.hpp"
 #include "runs/experiments/observables.hpp"
 
 namespace acinus::runs {
@@ -90,11 +94,39 @@ void sample_interface(const ObservedFrame& frame, Measures& m) {
   m["interface_residual"].push_back(coupling::interface_residual(frame.world, frame.work));
 }
 
+/// Measures the slowest growth that inhibition leaves, and counts the cells that rest.
+void sample_growth(const ObservedFrame& frame, Measures& m) {
+  const coupling::State& s = frame.world.state;
+  const coupling::Params& p = frame.world.params;
+  double slowest = 1, resting = 0;
+  if (!s.cycle.empty()) {
+    const bool by_density = std::ranges::any_of(p.life.type, [](const coupling::CycleParams& type) {
+      return type.inhibition.by == coupling::InhibitedBy::kDensity;
+    });
+    std::vector<double> density(s.cycle.size());
+    if (by_density) density = coupling::local_densities(frame.world);
+    std::size_t k = 0;
+    coupling::for_each_cell(s, [&](const coupling::Cell& c) {
+      const CellMeasure& cell = frame.snapshot.cells[k++];
+      const coupling::Cycle& cycle = s.cycle[c.index];
+      if (cycle.fate == coupling::Fate::kRest) ++resting;
+      if (cycle.duration <= 0 || cycle.fate == coupling::Fate::kLyse) return;
+      const coupling::Crowding now{cell.pressure, cell.volume / sphere_volume(cell.radius),
+                                   density[c.index]};
+      slowest =
+          std::min(slowest, coupling::growth_factor(coupling::cycle_of(p, s, c).inhibition, now));
+    });
+  }
+  m["slowest_growth"].push_back(slowest);
+  m["resting_cells"].push_back(resting);
+}
+
 }  // namespace
 
 void sample_tissue(const ObservedFrame& frame, Measures& m) {
   m["divisions"].push_back(static_cast<double>(frame.world.state.divisions));
   m["deaths"].push_back(static_cast<double>(frame.world.state.deaths));
+  sample_growth(frame, m);
   sample_pressures(frame.snapshot.cells, m);
   sample_overlaps(frame.audit, m);
   sample_clusters(frame, m);

@@ -69,8 +69,8 @@ std::string walls_text(const ImportedTissue& t) {
       normal[k] = high ? -1 : 1;
       walls.push_back(fmt::format(
           "    {{ \"name\": \"{}_{}\", \"point\": [{}], \"normal\": [{}], "
-          "\"mirror\": true }}", high ? "high" : "low",
-          kAxis[k], fmt::join(point, ", "), fmt::join(normal, ", ")));
+          "\"mirror\": true }}",
+          high ? "high" : "low", kAxis[k], fmt::join(point, ", "), fmt::join(normal, ", ")));
     }
   return walls.empty() ? "" : fmt::format("  \"walls\": [\n{}\n  ],\n", fmt::join(walls, ",\n"));
 }

@@ -208,11 +208,12 @@ void describe_wall(Visitor& v, WallEntry& b) {
                    .range = kNotNegative,
                    .automatic = "never"},
                   b.opens);
-  v.flag({.name = "mirror",
-          .meaning = "true: a symmetry plane that stands for equal cells on the other side, without "
-                     "adhesion and friction; false: a plate with adhesion and friction of its own",
-          .required = true},
-         b.mirror);
+  v.flag(
+      {.name = "mirror",
+       .meaning = "true: a symmetry plane that stands for equal cells on the other side, without "
+                  "adhesion and friction; false: a plate with adhesion and friction of its own",
+       .required = true},
+      b.mirror);
   v.real({.name = "adhesion",
           .meaning = "adhesion energy between cell and wall, per area; needs mirror = false",
           .dimension = kTension,

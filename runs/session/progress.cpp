@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <optional>
 
 #include "core/parallel/clock.hpp"
+#include "runs/session/result_text.hpp"
 #include "runs/session/standard_streams.hpp"
 
 namespace acinus::runs {
@@ -32,6 +34,15 @@ const char* phase_name(coupling::Phase p) {
       break;
   }
   return "running";
+}
+
+/// Completed share of the present phase as " 34 %"; empty if its end is unknown.
+std::string percent_of_phase(const coupling::World& world, double end) {
+  const coupling::Clock& clock = world.state.clock;
+  const double start = clock.phase == coupling::Phase::kRun ? clock.origin : clock.phase_start;
+  if (!std::isfinite(end) || end <= start) return "";
+  const double share = std::clamp((clock.time - start) / (end - start), 0.0, 1.0);
+  return fmt::format(" {:.0f} %", std::floor(100 * share));
 }
 
 /// End of the present phase on the clock of the state, s; infinite if it depends on the settling of
@@ -81,6 +92,23 @@ void Progress::step(const coupling::World& world) {
   print(world);
 }
 
+std::string Progress::line_of(const coupling::World& world) const {
+  const coupling::State& s = world.state;
+  const bool running = s.clock.phase == coupling::Phase::kRun;
+  const double time = coupling::time_since_start(world), end = end_of_phase(world, end_);
+  const std::optional<double> left = std::isfinite(end) ? left_.until(end) : std::nullopt;
+  std::string line =
+      fmt::format("{}{}  {} of {}  {}", phase_name(s.clock.phase), percent_of_phase(world, end),
+                  short_time(running ? time : s.clock.time),
+                  running ? short_time(end_) : "at most " + short_time(s.clock.time - time),
+                  describe_cells(dcm::count_cells(s.dcm), static_cast<int>(s.cbm.n_cell())));
+  if (options_.verbose)
+    line += fmt::format("  dt {:.3g} s  {:.0f}x real time", s.clock.last_step, left_.rate());
+  if (left)
+    line += fmt::format("  about {}{} left", short_time(*left), running ? "" : " of this phase");
+  return line;
+}
+
 void Progress::print(const coupling::World& world) {
   const coupling::State& s = world.state;
   const bool running = s.clock.phase == coupling::Phase::kRun;
@@ -95,14 +123,7 @@ void Progress::print(const coupling::World& world) {
         phase_name(s.clock.phase), time, end_, dcm, cbm, s.clock.last_step, wall,
         running && left ? fmt::format("{}", *left) : "null");
   } else {
-    const std::string line = fmt::format(
-        "{}  {} of {}  {} DCM + {} CBM cells  dt {:.3g} s  {:.0f}x real time{}",
-        phase_name(s.clock.phase), short_time(running ? time : s.clock.time),
-        running ? short_time(end_) : "at most " + short_time(s.clock.time - time), dcm, cbm,
-        s.clock.last_step, left_.rate(),
-        left ? fmt::format("  about {}{} left", short_time(*left), running ? "" : " of this phase")
-             : "");
-    fmt::print("{}{}{}", terminal_ ? "\r\x1b[K" : "", line, terminal_ ? "" : "\n");
+    fmt::print("{}{}{}", terminal_ ? "\r\x1b[K" : "", line_of(world), terminal_ ? "" : "\n");
     line_open_ = terminal_;
   }
   std::fflush(stdout);
@@ -120,6 +141,13 @@ void Progress::note(const std::string& text) {
   finish();
   fmt::print("{}\n", text);
   std::fflush(stdout);
+}
+
+void Progress::detail(const std::string& text) {
+  if (options_.verbose)
+    note(text);
+  else
+    spdlog::info(text);
 }
 
 void Progress::warn(const std::string& text) {

@@ -24,11 +24,14 @@ class Progress {
   void finish();
   /// Prints a message on a line of its own and logs it.
   void note(const std::string& text);
+  /// Logs a detail of the computation, and prints it if the run is verbose.
+  void detail(const std::string& text);
   /// Prints a warning to stderr, also of a quiet run, and logs it.
   void warn(const std::string& text);
 
  private:
   void print(const coupling::World& world);
+  std::string line_of(const coupling::World& world) const;
 
   const RunOptions& options_;
   Ranks ranks_;

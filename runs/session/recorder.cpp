@@ -110,7 +110,7 @@ Excess Recorder::write_frame(bool last) {
   last_frame_ = snapshot.time;
   if (audit.n_self_intersecting > 0)
     add_event("self_intersection",
-              fmt::format("{} cells cross themselves", audit.n_self_intersecting));
+              fmt::format("{} self-intersecting cells", audit.n_self_intersecting));
   Excess excess = find_excess(audit, world, work);
   if (excess.depth_um > 0) add_event("deep_overlap", excess.cause, excess.cells);
   const bool shrinks = excess.depth_um < excess_.depth_um && !last;

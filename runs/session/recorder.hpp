@@ -16,6 +16,7 @@
 #include "runs/assemble/notes.hpp"
 #include "runs/experiments/observe.hpp"
 #include "runs/experiments/observed_run.hpp"
+#include "runs/session/idle_rules.hpp"
 #include "runs/session/make_frame.hpp"
 #include "runs/session/run_options.hpp"
 #include "runs/session/run_outcome.hpp"
@@ -63,6 +64,11 @@ class Recorder {
   /// Wall time including the runs it continues, s.
   double wall_s() const { return wall_before_ + wall_seconds() - started_; }
   const RunTotals& totals() const { return totals_; }
+  int start_cells() const { return static_cast<int>(life_.start_cells); }
+  /// Rules of life that never acted so far.
+  std::vector<std::string> idle_rules() const {
+    return list_idle_rules(scene_, observed_.measures, simulation_.world().state);
+  }
 
  private:
   const Ranks& ranks() const { return simulation_.world().ranks; }

@@ -25,6 +25,7 @@ struct RunOptions {
   std::optional<double> max_memory;
   bool timings = false;        ///< print the time of each stage at the end
   bool quiet = false;          ///< warnings and errors only, no progress
+  bool verbose = false;        ///< print details of the computation
   bool progress_json = false;  ///< print progress as one JSON object a line
   bool is_part = false;        ///< part of a larger job, which itself explains how to resume it
   std::string command_line;    ///< recorded as provenance

@@ -29,10 +29,10 @@
 #include "runs/session/advice.hpp"
 #include "runs/session/progress.hpp"
 #include "runs/session/recorder.hpp"
+#include "runs/session/result_text.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/shell_quote.hpp"
 #include "runs/session/skipped.hpp"
-#include "runs/session/sphere_overlaps.hpp"
 #include "runs/session/together.hpp"
 #include "runs/session/traffic.hpp"
 
@@ -79,6 +79,7 @@ class SceneRun {
   void note(const std::string& text);
   void warn(const std::string& text);
   void report(const Notes& notes);
+  void show_result();
   bool frame_is_due() const;
   void write_frame(bool last);
   bool is_last() const;
@@ -123,7 +124,7 @@ SceneRun::SceneRun(const Scene& scene, const RunOptions& options, BuiltWorld bui
 
 bool SceneRun::uses_too_much_memory() {
   constexpr double kMemoryPollInterval =
-      0.5;  // s between looks: steps of small scenes are shorter than one
+      0.5;  // s between checks: steps of small scenes are shorter than one
   const double now = wall_seconds();
   if (now < next_memory_poll_) return false;
   next_memory_poll_ = now + kMemoryPollInterval;
@@ -223,11 +224,13 @@ coupling::Observer SceneRun::observer() {
 void SceneRun::close(RunOutcome status, const std::string& cause) {
   if (const auto& spheres = simulation_.work().cbm; spheres.beyond > 0) {
     note(fmt::format(
-        "the stiffness of spheres was asked beyond the range of its law in {:.2g} % of cases",
+        "the stiffness of spheres was evaluated beyond the range of its law in {:.2g} % of cases",
         100 * static_cast<double>(spheres.beyond) / static_cast<double>(spheres.corrected)));
   }
   if (const auto skipped = list_skipped_work(world(), simulation_.work()); !skipped.empty())
-    progress_.note(fmt::format("also skipped: {}", fmt::join(skipped, ", ")));
+    progress_.detail(fmt::format("also skipped: {}", fmt::join(skipped, ", ")));
+  if (status == RunOutcome::kCompleted)
+    for (const std::string& idle : recorder_.idle_rules()) note(idle);
   recorder_.close(status, cause);
   progress_.finish();
 }
@@ -291,6 +294,15 @@ void SceneRun::report(const Notes& notes) {
   for (const std::string& text : notes.info) note(text);
 }
 
+void SceneRun::show_result() {
+  progress_.note(fmt::format("completed {:.4g} h in {:.1f} s; results in {}", time() / 3600,
+                             recorder_.wall_s(), options_.out));
+  for (const std::string& line :
+       describe_result(world(), recorder_.totals(), recorder_.start_cells()))
+    progress_.note(line);
+  if (!options_.is_part) progress_.note(advise_viewing(options_.out));
+}
+
 int SceneRun::go() {
   if (options_.resume) {
     report(recorder_.resume());
@@ -300,32 +312,22 @@ int SceneRun::go() {
   }
   const coupling::State& s = world().state;
   const Ranks& ranks = world().ranks;
-  progress_.note(fmt::format("{}: {} DCM + {} CBM cells, {:.0f} um of vessels, {}", scene_.name,
-                             dcm::count_cells(s.dcm), s.cbm.n_cell(), vessel_length_,
-                             ranks.is_alone() ? fmt::format("{} threads", options_.threads)
-                                              : fmt::format("{} processes of {} threads",
-                                                            ranks.size(), options_.threads)));
+  const std::string threads =
+      fmt::format("{} thread{}", options_.threads, options_.threads == 1 ? "" : "s");
+  progress_.note(fmt::format(
+      "{}: {}{}, {}", scene_.name,
+      describe_cells(dcm::count_cells(s.dcm), static_cast<int>(s.cbm.n_cell())),
+      vessel_length_ > 0 ? fmt::format(", {:.0f} um of vessels", vessel_length_) : "",
+      ranks.is_alone() ? threads : fmt::format("{} processes of {}", ranks.size(), threads)));
   if (simulation_.work().system.ownership.is_whole() && !ranks.is_alone())
     progress_.note(
         "there are too few cells to share: until there are more, every process does all the work");
   report(notes_);
   if (const auto skipped = list_skipped(world()); !skipped.empty())
-    progress_.note(fmt::format("skipped: {}", fmt::join(skipped, ", ")));
+    progress_.detail(fmt::format("skipped: {}", fmt::join(skipped, ", ")));
   progress_.begin(world());
   const int code = loop();
-  if (code == 0) {
-    progress_.note(fmt::format("completed {:.4g} h in {:.1f} s; results in {}", time() / 3600,
-                               recorder_.wall_s(), options_.out));
-    if (const std::string deep = describe_sphere_overlaps(world(), recorder_.totals());
-        !deep.empty())
-      progress_.note(deep);
-    if (!options_.is_part)
-      progress_.note(
-          fmt::format("to look at it: acinus report {} makes a page for the browser; "
-                      "ParaView 5.12 or newer opens run.vtkhdf, older ones run.xmf with "
-                      "\"XDMF Reader\"",
-                      quote_for_shell(options_.out)));
-  }
+  if (code == 0) show_result();
   if (options_.timings)
     for (const std::string& line : describe_traffic(
              ranks, world().state.clock.accepted - accepted_before_, wall_seconds() - started_))

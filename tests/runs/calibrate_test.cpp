@@ -144,7 +144,7 @@ TEST_F(Calibrate, SlidesLayersForTheFrictionOfSpheres) {
 TEST_F(Calibrate, GoesOnWhereItWasStopped) {
   Process process(path(""), {"calibrate", "clump.json", "--out", "law.json", "--threads", "1",
                              "--fresh", "--no-relaxation", "--set", "capsule.speed=3 um/h"});
-  ASSERT_TRUE(process.await("skipped:"));
+  ASSERT_TRUE(process.await("1 thread"));
   process.send(SIGTERM);
   const Outcome stopped = process.wait();
   EXPECT_EQ(stopped.code, 75) << stopped.text;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "core/error.hpp"
@@ -102,6 +103,52 @@ TEST_F(Compare, WhatTellsCellsApartNeedsTheSameCells) {
   EXPECT_EQ(number.code, 0) << "counting needs no counterpart: " << number.text;
   const Outcome density = call({"compare", "one", "one", "--tolerance", "density=1"});
   EXPECT_EQ(density.code, 5) << "of one cell there is none: " << density.text;
+}
+
+TEST(Difference, HasASignedChangeAndAnRmsOfItsOwn) {
+  Comparison c;
+  c.runs = {"a", "b"};
+  c.drag = {{}, {}};
+  const auto row = [](const char* name, double reference, double value, double judged,
+                      bool is_rms) {
+    return Difference{name, "Pa", reference, value, judged, false, 0.2, {}, is_rms};
+  };
+  c.difference = {{row("pressure", 2, 1, 0.6, true), row("force", -2, -1, 0.1, true),
+                   row("cpu", 100, 3, 0.97, false), row("same", 0, 0, 0, true),
+                   row("none", 0, 1, INFINITY, true)}};
+  c.difference[0].push_back({"positions", "um", 0, 0.5, 0.5, true, 1.0, {}, true});
+  const std::vector<Difference>& d = c.difference[0];
+  EXPECT_EQ(d[0].change(), -0.5);
+  EXPECT_EQ(d[0].rms(), 0.6);
+  EXPECT_EQ(d[1].change(), 0.5) << "of a negative reference, upwards is positive";
+  EXPECT_TRUE(std::isnan(d[2].rms()));
+  EXPECT_EQ(d[3].change(), 0);
+  EXPECT_TRUE(std::isinf(d[4].change()));
+  EXPECT_TRUE(std::isnan(d[5].change()));
+  // Verdicts are those of the judged column.
+  EXPECT_FALSE(d[0].passes());
+  EXPECT_TRUE(d[1].passes()) << "changed by half, but judged by its rms";
+  EXPECT_FALSE(d[2].passes());
+  const std::string table = comparison_table(c);
+  for (const char* part : {"-50.0 %     60.0 %  BEYOND (rms at most 20 %)",
+                           "+50.0 %     10.0 %  within (rms at most 20 %)",
+                           "-97.0 %          -  BEYOND (change at most 20 %)", "+0.0 %      0.0 %",
+                           "undefined  undefined", "-     0.5 um  within (rms at most 1 um)"})
+    EXPECT_CONTAINS(table, part);
+}
+
+TEST_F(Compare, TheFileHasChangeAndRms) {
+  run("a");
+  run("b", {"--set", "cell_types.hepatocyte.adhesion=1e-5 J/m^2"});
+  call({"compare", "a", "b", "--out", "ab.json"});
+  for (const Json& row : json("ab.json")["differences"]) {
+    for (const char* key : {"run", "quantity", "unit", "reference", "value", "difference",
+                            "absolute", "change", "rms", "judged"})
+      EXPECT_TRUE(row.contains(key)) << key;
+    const Json& judged = row["judged"] == "rms" ? row["rms"] : row["change"];
+    if (row["difference"].is_number())
+      EXPECT_EQ(std::abs(judged.get<double>()), row["difference"].get<double>()) << row;
+  }
 }
 
 TEST_F(Compare, WhatWasNotMeasuredIsNoPass) {

@@ -180,8 +180,9 @@ TEST(Defaults, OfBlocksThatMayBeAbsentAreThoseOfTheLibrary) {
 }
 
 TEST(Defaults, OfObstaclesAreThoseOfTheLibrary) {
-  const contact::Boundary boundary = boundary_of(
-      {"walls=[{\"mirror\": true}]", "capsule={\"radius\": \"40 um\"}", "pipette={\"radius\": \"5 um\"}"});
+  const contact::Boundary boundary =
+      boundary_of({"walls=[{\"mirror\": true}]", "capsule={\"radius\": \"40 um\"}",
+                   "pipette={\"radius\": \"5 um\"}"});
   ASSERT_EQ(boundary.planes.size(), 1u);
   EXPECT_EQ(fields(boundary.planes[0]), fields(contact::Plane{}));
   EXPECT_TRUE(boundary.planes[0].material.mirror);

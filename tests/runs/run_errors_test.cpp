@@ -261,8 +261,9 @@ TEST_F(RunErrors, CellsThatDoNotFitAreNamedWithTheirPlace) {
   expect_refused({"vessels.file=vessel.swc"},
                  {"pair.json", "/cells/list/0", "(0, 0, 0) um", "16 um inside vessel segment",
                   "at most 0.3 um", "Move"});
-  expect_refused({R"(walls=[{"name": "floor", "mirror": true, "point": ["0 um", "0 um", "5 um"]}])"},
-                 {"/cells/list/1", "17 um inside wall \"floor\"", "at most 0.3 um", "Move"});
+  expect_refused(
+      {R"(walls=[{"name": "floor", "mirror": true, "point": ["0 um", "0 um", "5 um"]}])"},
+      {"/cells/list/1", "17 um inside wall \"floor\"", "at most 0.3 um", "Move"});
   expect_refused({R"(capsule={"radius": "20 um"})"},
                  {"/cells/list/1", "15.5 um inside the wall of the capsule", "Move"});
   expect_refused({R"(cells.list.1.position=["1 um", "0 um", "0 um"])"},

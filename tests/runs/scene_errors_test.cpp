@@ -71,7 +71,8 @@ TEST(SceneErrors, AllMistakesAreReportedAtOnceInOrder) {
 TEST(SceneErrors, AWallSaysIfItIsAMirror) {
   const auto wall = [](const std::string& body) { return with_block("\"walls\": [" + body + "]"); };
   const std::string missing =
-      "/walls/0/mirror: is missing: true: a symmetry plane that stands for equal cells on the other "
+      "/walls/0/mirror: is missing: true: a symmetry plane that stands for equal cells on the "
+      "other "
       "side, without adhesion and friction; false: a plate with adhesion and friction of its own "
       "(acinus explain wall.mirror)";
   EXPECT_EQ(failure(wall("{}")), "scene.json:1:13 " + missing);
@@ -81,7 +82,8 @@ TEST(SceneErrors, AWallSaysIfItIsAMirror) {
             "scene.json:1:13 " + missing);
   EXPECT_EQ(failure(wall(R"({"mirror": "false"})")),
             R"(scene.json:1:24 /walls/0/mirror = "false": must be true or false, without quotes)");
-  EXPECT_CONTAINS(failure(wall(R"({"mirror": true}, {"name": "b"})")), "/walls/1/mirror: is missing");
+  EXPECT_CONTAINS(failure(wall(R"({"mirror": true}, {"name": "b"})")),
+                  "/walls/1/mirror: is missing");
   for (const char* body : {R"({"mirror": true})", R"({"mirror": false})"})
     EXPECT_EQ(failure(wall(body)), "") << body;
 }

@@ -99,8 +99,9 @@ TEST(PipetteScene, SuctionIsForDeformableCells) {
 
 TEST(PlatesScene, NeedsTwoPlatesAndOneCell) {
   const auto plates = [](const std::string& second) {
-    return with_block(R"("experiment": "plates", "walls": [{"normal": [0, 0, 2], "mirror": true}, {"mirror": true, "normal": )" +
-                      second + "}]");
+    return with_block(
+        R"("experiment": "plates", "walls": [{"normal": [0, 0, 2], "mirror": true}, {"mirror": true, "normal": )" +
+        second + "}]");
   };
   EXPECT_EQ(failure(plates("[0, 0, -1]")), "");
   const std::string needs = R"(/experiment = "plates": needs two walls with opposite normals)";

@@ -185,7 +185,8 @@ TEST_F(StudyProgram, ARefusedRunIsReportedWithItsWholeCause) {
 TEST_F(StudyProgram, WhatWaitsForAStartThatFailedNamesTheFirstCause) {
   std::string shared = kShared;
   const std::string before = "\"start_up.enabled\": true";
-  shared.insert(shared.find(before), R"("walls": [{"mirror": true, "point": ["0 um", "0 um", "2 um"]}], )");
+  shared.insert(shared.find(before),
+                R"("walls": [{"mirror": true, "point": ["0 um", "0 um", "2 um"]}], )");
   write("broken.json", shared);
   const Outcome o = call(words("broken.json", "s"));
   EXPECT_EQ(o.code, 3) << o.text;
@@ -310,7 +311,7 @@ TEST_F(StudyProgram, TasksWaitForTheStartsOfOneAnother) {
 TEST_F(StudyProgram, ARunFolderIsWrittenByOneProcessOnly) {
   write("pair.json", kPair);
   Process first(path("."), {"run", "pair.json", "--out", "a", "--set", "time.end=100 days"});
-  ASSERT_TRUE(first.await("threads"));
+  ASSERT_TRUE(first.await("thread"));
   for (const char* how : {"--overwrite", "--resume"}) {
     if (!fs::exists(path("a/checkpoint.h5")) && std::string(how) == "--resume") continue;
     const Outcome second = call({"run", "pair.json", "--out", "a", how});

@@ -1,0 +1,19 @@
+#pragma once
+/// Rules of life that never acted in a run.
+
+#include <string>
+#include <vector>
+
+#include "coupling/world/world.hpp"
+#include "runs/experiments/measures.hpp"
+#include "runs/scene/scene.hpp"
+
+namespace acinus::runs {
+
+/// Messages on inhibition that slowed no growth by 1 % in any frame, on rules by which no cell
+/// died, and on rules by which no cell rested in any frame.
+/// @param measures  of all frames so far
+std::vector<std::string> list_idle_rules(const Scene& scene, const Measures& measures,
+                                         const coupling::State& state);
+
+}  // namespace acinus::runs
