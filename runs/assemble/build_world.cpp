@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/sphere.hpp"
+#include "core/units/units.hpp"
 #include "coupling/generate/lobule.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/life/cell_cycle.hpp"
@@ -104,10 +105,25 @@ void note_weak_cortex(const Scene& scene, const dcm::State& cells, Notes& notes)
         "cell_types.{}.adhesion is {:.2g} J/m^2, {:.2g} times cortex_young x cortex_thickness, "
         "what "
         "holds the cortex together: deformable cells will spread over each other until they fold, "
-        "and may cross themselves. Below {} times ({:.2g} J/m^2) they do not.",
+        "and may intersect themselves. Below {} times ({:.2g} J/m^2) they do not.",
         name, 1e-3 * type.adhesion, type.adhesion / stretch, kMostAdhesionOverStretch,
         1e-3 * kMostAdhesionOverStretch * stretch));
   }
+}
+
+/// Notes rules and rates of life that begin at the end of the scene or later.
+void note_late_rules(const Scene& scene, Notes& notes) {
+  const auto note = [&](const std::string& what, double from) {
+    if (from < scene.time.end) return;
+    notes.info.push_back(fmt::format("{} never acts: it begins at {}, and the scene ends at {}",
+                                     what, format_quantity(from, kTime, "h"),
+                                     format_quantity(scene.time.end, kTime, "h")));
+  };
+  for (std::size_t k = 0; k < scene.life.rules.size(); ++k)
+    note(fmt::format("life.rules.{}", k), scene.life.rules[k].from);
+  if (!scene.life.proliferation) return;
+  for (std::size_t k = 0; k < scene.life.proliferation->rate.size(); ++k)
+    note(fmt::format("life.proliferation.rates.{}", k), scene.life.proliferation->rate[k].from);
 }
 
 void note_cut_cells(const Scene& scene, const coupling::CutCells& cut, double depth, Notes& notes) {
@@ -172,6 +188,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   }
   build_corrections(scene, p.cbm, built.notes);
   build_life(scene, p, built.type_names);
+  note_late_rules(scene, built.notes);
   set_params(scene, p);
   world.state.tree = coupling::at_rest(p.tree);
   coupling::place_vessels(p.tree, world.state.tree, p.boundary.vessels);

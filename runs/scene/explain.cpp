@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/spelling.hpp"
@@ -77,6 +79,33 @@ std::string type_text(const Entry& entry) {
                      name.empty() ? dimension_formula(entry.dimension) : name);
 }
 
+std::string default_text(const Entry& entry) {
+  if (entry.is_block) return "(" + entry.type + ")";
+  return entry.initial.empty() ? "(required)" : entry.initial;
+}
+
+/// Keys right inside a block with default and meaning, a line each.
+std::string keys_of(const Entry& block, const std::vector<Entry>& entries) {
+  std::vector<std::pair<std::string, const Entry*>> keys;
+  std::size_t width = 0;
+  for (const Entry& entry : entries) {
+    if (!entry.path.starts_with(block.path + ".")) continue;
+    std::string name = entry.path.substr(block.path.size() + 1);
+    if (name.front() == '<') name = name.substr(name.find('.') + 1);
+    if (name.find('.') != std::string::npos) continue;
+    width = std::max(width, name.size());
+    keys.emplace_back(std::move(name), &entry);
+  }
+  std::string text = "  keys\n";
+  for (const auto& [name, entry] : keys) {
+    const std::string condition =
+        entry->condition.empty() ? "" : fmt::format(" (only with {})", entry->condition);
+    text += fmt::format("    {:{}}  {:18}  {}{}\n", name, width, default_text(*entry),
+                        entry->meaning, condition);
+  }
+  return text;
+}
+
 std::string described(const Entry& entry, const std::vector<Entry>& entries) {
   std::string text =
       fmt::format("{}\n  {}\n  type     {}\n", entry.path, entry.meaning, type_text(entry));
@@ -91,18 +120,7 @@ std::string described(const Entry& entry, const std::vector<Entry>& entries) {
   if (!entry.range.empty()) text += fmt::format("  range    {}\n", entry.range);
   if (!entry.condition.empty()) text += fmt::format("  only     with {}\n", entry.condition);
   if (!entry.symbol.empty()) text += fmt::format("  paper    {}\n", entry.symbol);
-  if (entry.is_block) {
-    text += "  keys    ";
-    for (const Entry& other : entries) {
-      const std::string& path = other.path;
-      if (!path.starts_with(entry.path + ".")) continue;
-      std::string rest = path.substr(entry.path.size() + 1);
-      if (rest.front() == '<') rest = rest.substr(rest.find('.') + 1);
-      if (rest.find('.') == std::string::npos) text += " " + rest;
-    }
-    text += "\n";
-  }
-  return text;
+  return entry.is_block ? text + keys_of(entry, entries) : text;
 }
 
 std::string cell_text(std::string text) {  // a | would end the table cell
@@ -143,10 +161,8 @@ std::string explain_all(const std::vector<Entry>& entries) {
   for (const Entry& entry : entries) width = std::max(width, entry.short_path.size());
   std::string text;
   for (const Entry& entry : entries) {
-    std::string initial = entry.is_block          ? "(" + entry.type + ")"
-                          : entry.initial.empty() ? "(required)"
-                                                  : entry.initial;
-    text += fmt::format("{:{}}  {:18}  {}\n", entry.short_path, width, initial, entry.meaning);
+    text += fmt::format("{:{}}  {:18}  {}\n", entry.short_path, width, default_text(entry),
+                        entry.meaning);
   }
   return text;
 }

@@ -158,13 +158,15 @@ void describe_inhibition(Visitor& v, coupling::Inhibition& b) {
                      "over the volume of that ball, images in mirror walls counted"},
          b.by);
   v.when(b.by == coupling::InhibitedBy::kPressure, "by = pressure", [&b](Visitor& w) {
-    w.real({.name = "pressure_threshold",
-            .meaning = "contact pressure that halves the growth rate",
-            .dimension = kStress,
-            .unit = "Pa",
-            .range = kPositive,
-            .required = true},
-           b.threshold);
+    w.real(
+        {.name = "pressure_threshold",
+         .meaning = "contact pressure that halves the growth rate; contact pressures in tissue are "
+                    "0.04 to 2.4 Pa",
+         .dimension = kStress,
+         .unit = "Pa",
+         .range = kPositive,
+         .required = true},
+        b.threshold);
   });
   v.when(b.by == coupling::InhibitedBy::kDensity, "by = density", [&b](Visitor& w) {
     w.real({.name = "density_threshold",
@@ -229,7 +231,7 @@ void describe_life(Visitor& v, LifeBlock& b) {
                              "cycle are always in it"},
                  b.proliferation, describe_proliferation);
   v.real({.name = "grid",
-          .meaning = "time between two looks at the rules, at inhibition, at sleep and at meshes",
+          .meaning = "time between two checks of rules, inhibition, sleep and meshes",
           .dimension = kTime,
           .unit = "min",
           .range = kPositive},
