@@ -7,7 +7,7 @@
     run.observables()                  # what the experiment measures, over time
 
     sim = acinus.Simulation("two_cells")  # steps a scene; needs what `./acinus.sh python` builds
-    sim.run("10 min")
+    sim.run(until="10 min")
 
 Reading needs h5py and numpy; with pandas tables are DataFrames.
 """

@@ -8,7 +8,7 @@ from acinus.frame import read_frame
 from acinus.hdf5 import open_run_file, read_rows, text_of, texts_of, unit_of
 from acinus.json_text import parse_json, read_json
 from acinus.lineage import make_lineage
-from acinus.tables import make_table
+from acinus.tables import make_table, sort_by_id
 
 FILE, SUMMARY = "run.vtkhdf", "summary.json"
 
@@ -64,12 +64,16 @@ class Run:
     # ---- tables ---------------------------------------------------------------------------
 
     def cells(self, frame=None):
-        """One row per cell and frame, or the rows of one frame, with its number and time in columns `frame` and `time`."""
-        return self._ragged("cells", frame)
+        """One row per cell and frame, or the rows of one frame, with its number and time in columns `frame` and `time`.
+
+        Rows are sorted by frame and id.
+        """
+        columns, units = self._ragged("cells", frame)
+        return make_table(sort_by_id(columns), units)
 
     def interface(self, frame=None):
         """One row per pair of a deformable cell and a sphere and frame, or those of one frame."""
-        return self._ragged("interface", frame)
+        return make_table(*self._ragged("interface", frame))
 
     def history(self, cell_id):
         """The rows of /cells of one cell."""
@@ -144,6 +148,7 @@ class Run:
     # ---- reading --------------------------------------------------------------------------
 
     def _ragged(self, group, frame):
+        """Columns and units of a table with any number of rows a frame."""
         with open_run_file(self.file) as file:
             n = _count_frames(file)
             offset = read_rows(file[group + "/frame_offset"], 0, n + 1)
@@ -155,7 +160,7 @@ class Run:
             for name, values in file[group].items():
                 if name != "frame_offset":
                     columns[name], units[name] = read_rows(values, first, last), unit_of(values)
-        return make_table(columns, units)
+        return columns, units
 
     def _samples(self, group):
         with open_run_file(self.file) as file:

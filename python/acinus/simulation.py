@@ -1,16 +1,19 @@
 """Simulations driven from Python: the module that `./acinus.sh python` builds (docs/howto/python.md)."""
 import json
+import math
 import os
+import re
 import warnings
 
 import numpy as np
 
-from acinus.errors import AcinusError, NoSuchItem
+from acinus.errors import AcinusError, BadInput, NoSuchItem
 from acinus.law import Law
 from acinus.run import Run
-from acinus.tables import make_table
+from acinus.tables import make_table, sort_by_id
 
 SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0, "d": 86400.0}
+SAME_TIME = 1e-6  # s, round-off of times
 UNITS = {"center_x": "um", "center_y": "um", "center_z": "um", "radius": "um", "volume": "um^3", "area": "um^2", "contact_area": "um^2",
          "pressure": "kPa", "cytosol_pressure": "kPa", "contact_force": "nN", "normal_force": "nN", "migration_force": "nN"}
 
@@ -30,20 +33,29 @@ def _changes(changes):
 
 
 def seconds(time):
-    """A time in s, or a text like "2 h"."""
-    if not isinstance(time, str):
-        return float(time)
-    number, _, unit = time.strip().partition(" ")
-    if unit.strip() not in SECONDS:
-        raise AcinusError(f'"{time}": a time is a number of s, or a text like "2 h" (s, min, h, d)')
-    return float(number) * SECONDS[unit.strip()]
+    """A time in s, or a text like "2 h". Raises BadInput."""
+    advice = f"a time is a finite number of s, or a text like \"2 h\" ({', '.join(SECONDS)})"
+    number, factor = time, 1.0
+    if isinstance(time, str):
+        parts = re.fullmatch(r"\s*(\S*\d\.?)\s*([a-z]+)\s*", time)
+        if parts is None or parts[2] not in SECONDS:
+            raise BadInput(f'"{time}": {advice}')
+        number, factor = parts[1], SECONDS[parts[2]]
+    try:
+        value = factor * float(number)
+    except (TypeError, ValueError):
+        value = math.nan
+    if not math.isfinite(value):
+        raise BadInput(f"{time!r}: {advice}")
+    return value
 
 
 class Simulation:
     """A scene that is stepped, looked at and changed from Python.
 
         sim = acinus.Simulation("lobule_hybrid", {"start_up.growth_time": "30 min"})
-        sim.run("1 h")
+        sim.run(until="1 h")
+        sim.run_for("10 min")
         sim.cells()["pressure"]
 
     Lengths um, times s, forces nN, stresses kPa. Not for several threads at once.
@@ -57,12 +69,27 @@ class Simulation:
         return f"<simulation of {self._sim.name}: {self._sim.n_cell} cells at t = {self.time:g} s>"
 
     def run(self, until=None):
-        """To a time since t = 0 (s, or "2 h"; the scene's end where nothing is said), through start-up.
+        """Steps to a time since t = 0, through start-up.
 
-        As `acinus run` steps, so the same bits at its end and at times of frames. Raises CannotContinue if a step
-        cannot be accepted; the state is then the last good one. Ctrl-C ends it after a whole step.
+        until: s, or a text like "2 h"; None: the end of the scene. The state has the same bits as in `acinus run` at the end of the
+        scene and at times of frames. Raises BadInput for a time that is past, and CannotContinue if a step cannot be accepted; the
+        state is then the last good one. Ctrl-C ends it after a whole step.
         """
-        self._sim.run_until(self.end if until is None else seconds(until))
+        end = self.end if until is None else seconds(until)
+        if self._sim.is_running and end < self.time - SAME_TIME:
+            raise BadInput(f"until t = {end:g} s: the simulation is at t = {self.time:g} s already. "
+                           "run_for(duration) steps on from there.")
+        self._sim.run_until(end)
+
+    def run_for(self, duration):
+        """Steps on by a duration (s, or a text like "10 min") from now, also beyond the end of the scene.
+
+        A start-up that is not over runs first and does not count: the duration then begins at t = 0. Otherwise as run().
+        """
+        length = seconds(duration)
+        if length < 0:
+            raise BadInput(f"run_for({duration!r}): a duration is not negative")
+        self.run(until=(self.time if self._sim.is_running else 0.0) + length)
 
     def step(self):
         """One accepted step with what happens after it; returns its length, s."""
@@ -81,8 +108,8 @@ class Simulation:
         return self._sim.n_cell
 
     def cells(self):
-        """One row per cell, as run.cells(frame) has them; takes an assembly of all forces."""
-        return make_table(self._sim.cells(), UNITS)
+        """One row per cell, sorted by id, as run.cells(frame) has them; takes an assembly of all forces."""
+        return make_table(sort_by_id(self._sim.cells()), UNITS)
 
     def nodes(self, cell):
         """(n, 3) um, a view of a deformable cell's surface without a copy: read-only. It shows the moment it was taken in
@@ -137,8 +164,9 @@ def compare(*runs):
     """`acinus compare`: how runs differ from the first one, one row per run and quantity.
 
     runs: run folders or acinus.Run. change is that of the value, relative to the reference, with its sign. rms is the difference over
-    time, of positions and cell_ quantities over cells. difference is the rms, else the size of the change; it is relative unless absolute is True. A row whose not_measured is not empty is no
-    ground for a verdict: it says why, for example that a run failed or was stopped before its end. Such things are warned of too.
+    time, of positions and cell_ quantities over cells. difference is the rms, or the size of the change where there is no rms; it is
+    relative unless absolute is True. A row whose not_measured is not empty is no ground for a verdict: it says why, for example that a
+    run failed or was stopped before its end. Such things are warned of too.
     """
     folders = [r.folder if isinstance(r, Run) else os.fspath(r) for r in runs]
     rows, notes = _native().compare(folders)

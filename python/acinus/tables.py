@@ -49,6 +49,15 @@ class Table:
         return f"<table of {len(self)} rows: {', '.join(self._columns)}>"
 
 
+def sort_by_id(columns):
+    """Columns with their rows sorted by the column `id`, within each frame where there is a column `frame`.
+
+    columns: name -> array of n rows
+    """
+    order = np.lexsort([columns[name] for name in ("id", "frame") if name in columns])
+    return {name: np.asarray(values)[order] for name, values in columns.items()}
+
+
 def make_table(columns, units):
     """A table of one-dimensional columns; vectors (n, 3) and stresses (n, 6) become columns of their own, named
     `center_x` and so on.

@@ -90,6 +90,7 @@ class Reading(Family):
         self.assertEqual(cells.attrs["units"]["pressure"], "kPa")
         self.assertEqual(run.unit("cells/pressure"), "kPa")
         np.testing.assert_array_equal(np.unique(cells["frame"]), np.arange(9))
+        np.testing.assert_array_equal(cells["frame"], np.sort(cells["frame"]))
         self.assertEqual(len(run.interface(0)), 1)
         self.assertIn("force_z", run.interface(0).columns)
         series = run.series()
@@ -97,6 +98,29 @@ class Reading(Family):
         self.assertEqual(np.asarray(run.observables()["cells"])[-1], 4)
         history = run.history(0)
         self.assertTrue((np.diff(np.asarray(history["radius"])) >= 0).all())
+
+    def test_cells_are_sorted_by_id(self):
+        run = acinus.Run(self.path)
+        with h5py.File(run.file) as file:
+            n = int(file["cells/frame_offset"][-2])
+            stored = file["cells/id"][n:n + 4]
+        last = run.cells(-1)
+        self.assertNotEqual(list(stored), sorted(stored), "daughters of both models: not stored in order")
+        for k in range(len(run)):
+            ids = np.asarray(run.cells(k)["id"])
+            self.assertTrue((np.diff(ids) > 0).all(), k)
+        # Every row moved as a whole.
+        frame = run[-1]
+        kind = dict(zip(frame.cell_id.tolist(), frame.kind.tolist()))
+        self.assertEqual([kind[i] for i in last["id"]], list(last["kind"]))
+        center = dict(zip(frame.spheres.id.tolist(), frame.spheres.center))
+        for row, i in enumerate(last["id"]):
+            if i in center:
+                at = [np.asarray(last["center_" + axis])[row] for axis in "xyz"]
+                np.testing.assert_allclose(at, center[i], atol=1e-4)
+        every = run.cells()
+        own = np.asarray(every["frame"]) == 8
+        np.testing.assert_array_equal(np.asarray(every["pressure"])[own], last["pressure"])
 
     def test_events_and_lineage(self):
         run = acinus.Run(self.path)

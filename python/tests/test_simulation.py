@@ -52,12 +52,69 @@ class SameBits(unittest.TestCase):
         self.assertGreater(np.abs(held[0] - held[-1]).max(), 0)  # each shows its own moment
 
 
+class Stepping(unittest.TestCase):
+    def make(self):
+        return acinus.Simulation("two_cells", {"time.end": "4 min", "time.step": "30 s", "output.every": "1 min"})
+
+    def test_run_goes_to_a_time_and_run_for_goes_on_by_a_duration(self):
+        until, by = self.make(), self.make()
+        until.run(until="1 min")
+        until.run("3 min")
+        by.run_for("1 min")
+        self.assertAlmostEqual(by.time, 60, places=6)
+        by.run_for(120)
+        self.assertAlmostEqual(by.time, 180, places=6)
+        self.assertEqual(until.state_hash, by.state_hash)
+        by.run()
+        self.assertEqual(by.time, by.end)
+        by.run_for("30 s")  # beyond the end of the scene
+        self.assertAlmostEqual(by.time, 270, places=6)
+
+    def test_no_time_to_go_changes_nothing(self):
+        sim = self.make()
+        sim.run(until=60)
+        before = (sim.state_hash, sim.steps)
+        sim.run(until=sim.time)
+        sim.run_for(0)
+        self.assertEqual((sim.state_hash, sim.steps), before)
+
+    def test_the_past_is_refused(self):
+        sim = self.make()
+        sim.run(until="2 min")
+        for until in ("1 min", 0, -5):
+            with self.assertRaisesRegex(acinus.BadInput, r"at t = 120 s already.*run_for"):
+                sim.run(until=until)
+        with self.assertRaisesRegex(acinus.BadInput, "not negative"):
+            sim.run_for("-1 min")
+        sim.run_for("10 min")
+        with self.assertRaises(acinus.BadInput):
+            sim.run()  # the end of the scene is past
+        self.assertAlmostEqual(sim.time, 720, places=6)
+
+    def test_a_start_up_does_not_count(self):
+        sim = acinus.Simulation("two_cells", {"time.end": "10 min", "start_up.enabled": True, "start_up.growth_time": "5 min",
+                                              "start_up.max_duration": "5 min"})
+        self.assertLess(sim.time, 0)
+        sim.run_for("1 min")
+        self.assertAlmostEqual(sim.time, 60, places=6)
+
+    def test_times(self):
+        from acinus.simulation import seconds
+        for time, s in (("2 h", 7200), ("2h", 7200), (" 1.5 min ", 90), ("1e2 s", 100), ("3. s", 3), (7, 7), (np.float32(0.5), 0.5),
+                        ("1 d", 86400)):
+            self.assertEqual(seconds(time), s, time)
+        for time in ("2", "h", "", "2 parsecs", "two h", "1 2 h", "nan s", "1e999 s", float("nan"), float("inf"), [1], None, "1,5 h"):
+            with self.assertRaisesRegex(acinus.BadInput, "a time is a finite number of s, or a text like", msg=str(time)):
+                seconds(time)
+
+
 class Looking(unittest.TestCase):
     def setUp(self):
         self.sim = acinus.Simulation("lobule_hybrid", {"start_up.growth_time": "30 min", "time.end": "10 min"})
 
     def test_arrays_are_those_of_the_state(self):
         cells = self.sim.cells()
+        np.testing.assert_array_equal(cells["id"], np.sort(cells["id"]))
         ids, centres = self.sim.spheres()
         self.assertEqual(len(self.sim), len(cells["id"]))
         sphere = np.asarray(cells["kind"]) == acinus.SPHERE
