@@ -34,7 +34,7 @@ CASES = {
     "nucleus": [os.path.join(SCENES, "narrow_gap_nucleus.json"), "--until", "5 min"],
     "patch": [os.path.join(SCENES, "patch_box.json"), "--until", "10 min"],
     "newton": [os.path.join(SCENES, "clump13.json"), "--until", "2 min", "--set", "time.integrator=newton"],
-    # Slow: the sizes of docs/howto/scaling.md.
+    # Slow: the sizes of docs/developers/scaling_model.md.
     "lobule_hybrid": [os.path.join(SCENES, "lobule_hybrid.json"), "--until", "2 h"],
     "spheroid64": [os.path.join(SCENES, "spheroid.json"), "--until-cells", "64"],
     "spheroid_cbm2000": [os.path.join(SCENES, "spheroid_cbm.json"), "--until-cells", "2000"],
