@@ -19,7 +19,7 @@ A template is Markdown with three directives (README.md has an example):
 
 COMMAND and CASE may hold *. A CELL is text with figures in braces, as in "{gain:.2f} ({gain_least} to {gain_most})"; a figure may be
 scaled, {pressure_error*100}, and takes a format of Python, by default three digits. A cell of a table stays empty where its row lacks a figure.
-Of several measurements of a figure the newest counts.
+All cells of a row come from one run: the newest that has the figures of the first cell, or of the first cell it can fill.
 """
 
 import csv
@@ -65,16 +65,26 @@ def read_rows(folder):
     return sorted(rows, key=lambda row: row["date"])
 
 
-def newest(rows):
-    """(command, case) -> {figure: value}, in the order of measurement."""
+def group_runs(rows):
+    """(command, case) -> [{figure: value}] with one entry a run, oldest first."""
     table = {}
     for row in rows:
-        table.setdefault((REPEATS.sub("", row["command"]), row["case"]), {})[row["figure"]] = row["value"]
-    return table
+        runs = table.setdefault((REPEATS.sub("", row["command"]), row["case"]), {})
+        runs.setdefault((row["date"], row["commit"], row["machine"]), {})[row["figure"]] = row["value"]
+    return {key: list(runs.values()) for key, runs in table.items()}
+
+
+def choose(runs, *cells):
+    """Figures of the newest run that fills the first cell, else the second and so on; empty if none does."""
+    for cell in cells:
+        for figures in reversed(runs):
+            if fill(cell, figures) is not None:
+                return figures
+    return {}
 
 
 def find(table, command, case):
-    found = [(key, figures) for key, figures in table.items()
+    found = [(key, runs) for key, runs in table.items()
              if fnmatch.fnmatchcase(key[0], command) and fnmatch.fnmatchcase(key[1], case)]
     if not found:
         raise Fault(f"no result file has the case \"{case}\" of \"{command}\"")
@@ -120,9 +130,10 @@ def make_value(table, body):
     found = find(table, command, case)
     if len(found) > 1:
         raise Fault(f"\"{case}\" of \"{command}\" stands for {len(found)} cases; a value needs one")
-    text = fill(cell, found[0][1])
+    runs = found[0][1]
+    text = fill(cell, choose(runs, cell))
     if text is None:
-        raise Fault(f"\"{case}\" of \"{command}\" lacks a figure of \"{cell}\"; it has {', '.join(found[0][1])}")
+        raise Fault(f"\"{case}\" of \"{command}\" lacks a figure of \"{cell}\"; its newest run has {', '.join(runs[-1])}")
     return text
 
 
@@ -132,7 +143,8 @@ def make_table(table, body):
         raise Fault(f"the second line of a table is \"cells | CELL ...\" with {len(head) - 1} cells: {' | '.join(cells)}")
     rows = []
     for command, case, *text in selections:
-        for key, figures in find(table, command, case):
+        for key, runs in find(table, command, case):
+            figures = choose(runs, *cells[1:])
             rows.append([text[0] if text else key[1]] + [fill(cell, figures) or "" for cell in cells[1:]])
     for k, cell in enumerate(cells[1:], 1):
         if not any(row[k] for row in rows):
@@ -146,7 +158,8 @@ def make_table(table, body):
 def settings_of(table, title, quadrature):
     """(setting, error, CPU seconds) of all settings of a scene that completed, on 162 nodes."""
     found = []
-    for (_, case), figures in table.items():
+    for (_, case), runs in table.items():
+        figures = choose(runs, "{cpu_s}")
         scene, _, rest = case.partition(": ")
         study, _, setting = rest.partition(": ")
         mesh = "" if quadrature == "*" else f", 162 nodes, {quadrature}, "
@@ -183,7 +196,7 @@ def make_page(table, template):
 
 def make_pages(folder=HERE):
     """Page name -> text."""
-    table, pages = newest(read_rows(folder)), {}
+    table, pages = group_runs(read_rows(folder)), {}
     for path in sorted(glob.glob(os.path.join(folder, "*.md.in"))):
         name = os.path.basename(path).removesuffix(".in")
         with open(path, encoding="utf-8") as file:

@@ -40,10 +40,14 @@ class Rules(unittest.TestCase):
         for part in parts:
             self.assertIn(part, str(caught.exception))
 
-    def test_newest_figure_counts_whatever_file_holds_it(self):
+    def test_figures_of_a_row_come_from_one_run(self):
         self.write("a.csv", HEADER + row("cpu_s", 1, "2026-11-03"))
         self.write("b.csv", HEADER + row("cpu_s", 2, "2026-11-02") + row("steps", 7, "2026-11-02"))
-        self.assertEqual(self.make("{{value acinus bench a* | one | {cpu_s} s, {steps}}}"), "1 s, 7")
+        self.assertEqual(self.make("{{value acinus bench a* | one | {cpu_s} s}}"), "1 s")
+        self.assertEqual(self.make("{{value acinus bench a* | one | {cpu_s} s, {steps}}}"), "2 s, 7")
+        self.write("c.csv", HEADER + row("steps", 8, "2026-11-01", case="two"))
+        self.assertEqual(self.make("{{table\ncase | cpu | steps\ncells | {cpu_s} | {steps}\n*a* | *\n}}").splitlines()[2:],
+                         ["| two |  | 8 |", "| one | 1 |  |"])
 
     def test_last_row_of_a_day_counts(self):
         self.write("a.csv", HEADER + row("cpu_s", 1) + row("cpu_s", 2))
@@ -79,7 +83,7 @@ class Rules(unittest.TestCase):
     def test_faults_of_templates_name_what_is_missing(self):
         self.write("a.csv", HEADER + row("x", 1) + row("x", 1, case="two"))
         self.check_fault("{{value *a* | none | {x}}}", "p.md.in", 'the case "none"')
-        self.check_fault("{{value *a* | one | {z}}}", "lacks a figure", "it has x")
+        self.check_fault("{{value *a* | one | {z}}}", "lacks a figure", "newest run has x")
         self.check_fault("{{value *a* | * | {x}}}", "stands for 2 cases")
         self.check_fault("{{table\ncase | x\ncells | {z}\n*a* | one\n}}", 'the figures of "{z}"')
         self.check_fault("{{table\ncase | x\n*a* | one\n}}", "the second line of a table")
