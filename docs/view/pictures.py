@@ -138,7 +138,8 @@ def single_cell(runs):
 def pull_off_tension(runs):
     run = runs.get("pull_off_2562")
     sheet = Sheet(1280, 540)
-    for k, (name, seconds) in enumerate((("at rest", 140), ("just before the cells part", 1460))):
+    before = read_times(run)[-1] - 20  # the run ends when they have parted
+    for k, (name, seconds) in enumerate((("at rest", 140), ("just before the cells part", before))):
         sheet.text(280 + 560 * k, 24, name, 17, bold=True, align="center")
         sheet.picture(run, frame_at(run, seconds), ["--color", "tension", "--range", "-0.03", "0.03", "--only", "0"],
                       20 + 560 * k, 45, 520, 450, 32)
