@@ -82,13 +82,13 @@ def moving_zoom(runs):
     sheet = Sheet(1300, 560)
     for k, (name, frame) in enumerate((("start", 0), ("day 4", "last"))):
         sheet.text(325 + 650 * k, 24, name, 17, bold=True, align="center")
-        sheet.picture(run, frame, FROM_ABOVE, 20 + 650 * k, 45, 610, 450, 380)
+        sheet.picture(run, frame, FROM_ABOVE, 20 + 650 * k, 45, 610, 450, 400)
     sheet.legend(["deformable", "sphere", "vessel"], 30, 490)
-    sheet.scale(380, 610, 1280, 540)
+    sheet.scale(400, 610, 1280, 540)
     sheet.save(IMAGES / "lobule_moving_zoom.png")
     film = pathlib.Path(__file__).with_name("film.py")
     subprocess.run([sys.executable, str(film), run, "--out", str(IMAGES / "moving_zoom.webp"), "--seconds", "8", "--", "--color", "kind",
-                    "--clip", "z", "--size", "640x480"], check=True)
+                    "--clip", "z", "--width", "340", "--size", "640x480"], check=True)
 
 
 def monolayers(runs):
