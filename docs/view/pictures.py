@@ -88,7 +88,7 @@ def moving_zoom(runs):
     sheet.save(IMAGES / "lobule_moving_zoom.png")
     film = pathlib.Path(__file__).with_name("film.py")
     subprocess.run([sys.executable, str(film), run, "--out", str(IMAGES / "moving_zoom.webp"), "--seconds", "8", "--", "--color", "kind",
-                    "--clip", "z", "--width", "340", "--size", "640x480"], check=True)
+                    "--clip", "z", "--width", "385", "--size", "640x480"], check=True)
 
 
 def monolayers(runs):
@@ -101,7 +101,7 @@ def monolayers(runs):
 
 def spheroids(runs):
     for name, file in (("spheroid_200", "spheroid_200_cut"), ("spheroid_adhesive_200", "spheroid_adhesive_cut")):
-        draw_single(IMAGES / f"{file}.png", runs.get(name), ["--color", "pressure", "--range", "0", "300", *SECTION], "1000x750")
+        draw_single(IMAGES / f"{file}.png", runs.get(name), ["--color", "cytosol_pressure", "--range", "0", "32", *SECTION], "1000x750")
 
 
 def spheroid_1000(runs):
@@ -118,7 +118,7 @@ def spheroid_1000(runs):
 
 
 def patch_capsule(runs):
-    draw_single(IMAGES / "patch_capsule.png", runs.get("patch_capsule"), ["--color", "pressure", "--range", "0", "300",
+    draw_single(IMAGES / "patch_capsule.png", runs.get("patch_capsule"), ["--color", "pressure", "--range", "0", "200",
                                                                          *SECTION], "900x700")
 
 
