@@ -91,7 +91,7 @@ TEST_F(Calibrate, WritesALawThatScenesUseAndRunsThatCompare) {
   const Outcome apart =
       call({"compare", runs + "dcm", runs + "cbm", "--tolerance", "normal_force=0.01"});
   EXPECT_EQ(apart.code, 5) << apart.text;
-  EXPECT_CONTAINS(apart.text, "BEYOND (1 %)");
+  EXPECT_CONTAINS(apart.text, "BEYOND (rms at most 1 %)");
   EXPECT_CONTAINS(apart.text, "drag in");
 }
 
