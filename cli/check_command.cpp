@@ -13,6 +13,7 @@
 #include "runs/assemble/shipped_laws.hpp"
 #include "runs/experiments/read_scene.hpp"
 #include "runs/scene/shipped_scenes.hpp"
+#include "runs/session/result_text.hpp"
 
 namespace acinus::cli {
 namespace {
@@ -63,11 +64,12 @@ int check_scene(const CheckArguments& arguments) {
   }
   const coupling::State& state = built.world.state;
   fmt::print(
-      "{}: valid scene \"{}\", {} cell type{}, {} DCM + {} CBM cells from {}, {:.0f} um of "
-      "vessels, end {:.4g} h, hash {}\n",
-      scene.file, scene.name, scene.cell_types.size(), scene.cell_types.size() == 1 ? "" : "s",
-      dcm::count_cells(state.dcm), state.cbm.n_cell(), runs::name_of_choice(scene.cells.source),
-      built.vessel_length, scene.time.end / 3600, scene.hash);
+      "{}: valid scene \"{}\", {} cell type{}, {} from {}{}, end {:.4g} h, hash {}\n", scene.file,
+      scene.name, scene.cell_types.size(), scene.cell_types.size() == 1 ? "" : "s",
+      runs::describe_cells(dcm::count_cells(state.dcm), static_cast<int>(state.cbm.n_cell())),
+      runs::name_of_choice(scene.cells.source),
+      built.vessel_length > 0 ? fmt::format(", {:.0f} um of vessels", built.vessel_length) : "",
+      scene.time.end / 3600, scene.hash);
   for (const std::string& note : built.notes.info) fmt::print("{}\n", note);
   for (const std::string& note : later) fmt::print("{}\n", note);
   suggest_laws(scene, built.world.state);

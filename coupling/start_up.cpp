@@ -118,10 +118,12 @@ std::string update_phase(World& world, Workspace& work) {
   if (!rest && !capped) return {};
   enter(c, Phase::kRun);
   c.origin = c.time;
+  const std::string end =
+      rest ? "at rest" : fmt::format("not equilibrated within {:.3g} h", p.max_settle / 3600);
   return fmt::format(
       "t = 0 after {:.2f} h of start-up: {} (fastest node {:.2g} um/min, pressures change {:.2g} "
       "%/h)",
-      c.time / 3600, rest ? "at rest" : "settling reached its cap", 60 * speed, 3.6e5 * drift);
+      c.time / 3600, end, 60 * speed, 3.6e5 * drift);
 }
 
 }  // namespace acinus::coupling

@@ -11,7 +11,6 @@
 
 #include "core/error.hpp"
 #include "core/sphere.hpp"
-#include "core/units/units.hpp"
 #include "coupling/generate/lobule.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/life/cell_cycle.hpp"
@@ -115,9 +114,9 @@ void note_weak_cortex(const Scene& scene, const dcm::State& cells, Notes& notes)
 void note_late_rules(const Scene& scene, Notes& notes) {
   const auto note = [&](const std::string& what, double from) {
     if (from < scene.time.end) return;
-    notes.info.push_back(fmt::format("{} never acts: it begins at {}, and the scene ends at {}",
-                                     what, format_quantity(from, kTime, "h"),
-                                     format_quantity(scene.time.end, kTime, "h")));
+    notes.info.push_back(
+        fmt::format("{} never acts: it begins at {:.4g} h, and the scene ends at {:.4g} h", what,
+                    from / 3600, scene.time.end / 3600));
   };
   for (std::size_t k = 0; k < scene.life.rules.size(); ++k)
     note(fmt::format("life.rules.{}", k), scene.life.rules[k].from);

@@ -86,22 +86,24 @@ std::string default_text(const Entry& entry) {
 
 /// Keys right inside a block with default and meaning, a line each.
 std::string keys_of(const Entry& block, const std::vector<Entry>& entries) {
+  constexpr std::size_t kWidestDefault = 26;
   std::vector<std::pair<std::string, const Entry*>> keys;
-  std::size_t width = 0;
+  std::size_t width = 0, default_width = 0;
   for (const Entry& entry : entries) {
     if (!entry.path.starts_with(block.path + ".")) continue;
     std::string name = entry.path.substr(block.path.size() + 1);
     if (name.front() == '<') name = name.substr(name.find('.') + 1);
     if (name.find('.') != std::string::npos) continue;
     width = std::max(width, name.size());
+    default_width = std::max(default_width, std::min(default_text(entry).size(), kWidestDefault));
     keys.emplace_back(std::move(name), &entry);
   }
   std::string text = "  keys\n";
   for (const auto& [name, entry] : keys) {
     const std::string condition =
         entry->condition.empty() ? "" : fmt::format(" (only with {})", entry->condition);
-    text += fmt::format("    {:{}}  {:18}  {}{}\n", name, width, default_text(*entry),
-                        entry->meaning, condition);
+    text += fmt::format("    {:{}}  {:{}}  {}{}\n", name, width, default_text(*entry),
+                        default_width, entry->meaning, condition);
   }
   return text;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "core/units/units.hpp"
 #include "runs/scene/choices.hpp"
 
 namespace acinus::runs {
@@ -29,11 +28,11 @@ std::string describe_inhibition(const coupling::Inhibition& p, const Measures& m
   const std::string by = "inhibition by " + name_of_choice(p.by);
   if (p.by == coupling::InhibitedBy::kPressure)
     return fmt::format("{} at {} never slowed growth (highest contact pressure {:.2g} Pa)", by,
-                       format_quantity(p.threshold, kStress, "Pa"),
+                       fmt::format("{:.4g} Pa", 1e3 * p.threshold),
                        std::max(largest(m, "contact_pressure_max_dcm_Pa"),
                                 largest(m, "contact_pressure_max_cbm_Pa")));
   const std::string at = p.by == coupling::InhibitedBy::kDensity
-                             ? format_quantity(p.threshold, kNumberDensity, "1/um^3")
+                             ? fmt::format("{:.4g} 1/um^3", p.threshold)
                              : fmt::format("{:.3g} of the volume at rest", p.threshold);
   return fmt::format("{} at {} never slowed growth (slowest rate {:.1f} % of the free one)", by, at,
                      100 * slowest);
@@ -42,7 +41,7 @@ std::string describe_inhibition(const coupling::Inhibition& p, const Measures& m
 }  // namespace
 
 std::vector<std::string> list_idle_rules(const Scene& scene, const Measures& measures,
-                                         const coupling::State& state) {
+                                         const coupling::State& state, double time) {
   std::vector<std::string> list;
   const double slowest =
       extreme(measures, "slowest_growth", 1, [](auto a, auto b) { return std::min_element(a, b); });
@@ -58,7 +57,7 @@ std::vector<std::string> list_idle_rules(const Scene& scene, const Measures& mea
   const bool rests = largest(measures, "resting_cells") > 0;
   for (std::size_t k = 0; k < scene.life.rules.size(); ++k) {
     const bool die = scene.life.rules[k].die;
-    if (die ? dies : rests) continue;
+    if (scene.life.rules[k].from >= time || (die ? dies : rests)) continue;
     list.push_back(die ? fmt::format("life.rules.{} never acted: no cell died", k)
                        : fmt::format("life.rules.{} never acted: no cell rested in any frame", k));
   }

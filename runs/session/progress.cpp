@@ -16,12 +16,6 @@
 namespace acinus::runs {
 namespace {
 
-std::string short_time(double s) {
-  if (s < 120) return fmt::format("{:.0f} s", s);
-  if (s < 7200) return fmt::format("{:.1f} min", s / 60);
-  return fmt::format("{:.1f} h", s / 3600);
-}
-
 const char* phase_name(coupling::Phase p) {
   switch (p) {
     case coupling::Phase::kGrow:
@@ -97,15 +91,16 @@ std::string Progress::line_of(const coupling::World& world) const {
   const bool running = s.clock.phase == coupling::Phase::kRun;
   const double time = coupling::time_since_start(world), end = end_of_phase(world, end_);
   const std::optional<double> left = std::isfinite(end) ? left_.until(end) : std::nullopt;
-  std::string line =
-      fmt::format("{}{}  {} of {}  {}", phase_name(s.clock.phase), percent_of_phase(world, end),
-                  short_time(running ? time : s.clock.time),
-                  running ? short_time(end_) : "at most " + short_time(s.clock.time - time),
-                  describe_cells(dcm::count_cells(s.dcm), static_cast<int>(s.cbm.n_cell())));
+  std::string line = fmt::format(
+      "{}{}  {} of {}  {}", phase_name(s.clock.phase), percent_of_phase(world, end),
+      format_duration(running ? time : s.clock.time),
+      running ? format_duration(end_) : "at most " + format_duration(s.clock.time - time),
+      describe_cells(dcm::count_cells(s.dcm), static_cast<int>(s.cbm.n_cell())));
   if (options_.verbose)
     line += fmt::format("  dt {:.3g} s  {:.0f}x real time", s.clock.last_step, left_.rate());
   if (left)
-    line += fmt::format("  about {}{} left", short_time(*left), running ? "" : " of this phase");
+    line +=
+        fmt::format("  about {}{} left", format_duration(*left), running ? "" : " of this phase");
   return line;
 }
 
@@ -130,7 +125,7 @@ void Progress::print(const coupling::World& world) {
 }
 
 void Progress::finish() {
-  if (line_open_) fmt::print("\n");
+  if (line_open_) fmt::print("\r\x1b[K");
   line_open_ = false;
   std::fflush(stdout);
 }

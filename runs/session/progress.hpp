@@ -20,7 +20,7 @@ class Progress {
   void begin(const coupling::World& world);
   /// Prints if a line is due. Called after every step.
   void step(const coupling::World& world);
-  /// Ends the line on the terminal.
+  /// Clears the progress line on the terminal.
   void finish();
   /// Prints a message on a line of its own and logs it.
   void note(const std::string& text);

@@ -67,7 +67,8 @@ class Recorder {
   int start_cells() const { return static_cast<int>(life_.start_cells); }
   /// Rules of life that never acted so far.
   std::vector<std::string> idle_rules() const {
-    return list_idle_rules(scene_, observed_.measures, simulation_.world().state);
+    return list_idle_rules(scene_, observed_.measures, simulation_.world().state,
+                           simulation_.time());
   }
 
  private:

@@ -30,11 +30,39 @@ double mean_deformable_radius(const coupling::State& s) {
 
 std::string verdict(const std::string& what, double depth, double radius, bool good,
                     const std::string& limit) {
-  return fmt::format("deepest overlap of {}: {:.2g} um, {:.2g} % of a radius: {} ({})", what, depth,
-                     100 * depth / radius, good ? "good" : "TOO DEEP", limit);
+  return fmt::format("deepest overlap of {}: {:.2g} um, {:.2g} % of a radius: {} (limit {})", what,
+                     depth, 100 * depth / radius, good ? "good" : "TOO DEEP", limit);
+}
+
+/// Verdicts on the overlaps of spheres with each other and with vessels.
+void add_sphere_verdicts(const coupling::World& world, const RunTotals& totals,
+                         std::vector<std::string>& lines) {
+  const double radius = largest_sphere(world.state), depth = totals.max_overlap_cbm_um;
+  if (radius <= 0) return;
+  if (world.state.divisions > 0)
+    lines.push_back(
+        fmt::format("deepest overlap of spheres: {:.2g} um, {:.2g} % of a radius: no verdict "
+                    "(daughters start deep in each other)",
+                    depth, 100 * depth / radius));
+  else
+    lines.push_back(verdict("spheres", depth, radius, depth <= kSphereOverlap * radius,
+                            fmt::format("{:.0f} %", 100 * kSphereOverlap)));
+  if (totals.cbm_vessel_um > 0)
+    lines.push_back(verdict("spheres and vessels", totals.cbm_vessel_um, radius,
+                            totals.cbm_vessel_um <= kVesselOverlap * radius,
+                            fmt::format("{:.0f} %", 100 * kVesselOverlap)));
+  if (std::string advice = advise_sphere_overlaps(world, totals); !advice.empty())
+    lines.push_back(std::move(advice));
 }
 
 }  // namespace
+
+std::string format_duration(double seconds) {
+  if (seconds < 10) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 120) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 7200) return fmt::format("{:.1f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
 
 std::string describe_cells(int deformable, int spheres) {
   const std::string a = counted(deformable, "deformable cell", "deformable cells"),
@@ -56,29 +84,24 @@ std::vector<std::string> describe_result(const coupling::World& world, const Run
     const double limit = world.params.dcm_contact.max_depth;
     lines.push_back(verdict("deformable cells", totals.max_penetration_um, radius,
                             totals.max_penetration_um <= limit,
-                            fmt::format("contact separates cells up to {:.3g} um deep", limit)));
+                            fmt::format("{:.3g} um, contact.max_depth", limit)));
   }
-  if (const double radius = largest_sphere(s); radius > 0) {
-    const double depth = totals.max_overlap_cbm_um;
-    if (s.divisions > 0)  // sister cells start deep in each other
-      lines.push_back(
-          fmt::format("deepest overlap of spheres: {:.2g} um, {:.2g} % of a radius "
-                      "(daughters start deep in each other)",
-                      depth, 100 * depth / radius));
-    else
-      lines.push_back(verdict("spheres", depth, radius, depth <= kSphereOverlap * radius,
-                              fmt::format("limit: {:.0f} %", 100 * kSphereOverlap)));
-  }
-  if (std::string deep = describe_sphere_overlaps(world, totals); !deep.empty())
-    lines.push_back(std::move(deep));
+  add_sphere_verdicts(world, totals, lines);
   return lines;
 }
 
-std::string advise_viewing(const std::string& folder) {
-  return fmt::format(
-      "to look at it: acinus report {} makes a page for the browser; ParaView 5.12 or newer opens "
-      "run.vtkhdf, older ones run.xmf with \"XDMF Reader\"",
-      quote_for_shell(folder));
+std::string describe_progress(const coupling::World& world, double end) {
+  const coupling::Clock& clock = world.state.clock;
+  if (clock.phase != coupling::Phase::kRun)
+    return fmt::format("after {} of start-up", format_duration(clock.time));
+  return fmt::format("at {} of {}", format_duration(coupling::time_since_start(world)),
+                     format_duration(end));
+}
+
+std::vector<std::string> advise_viewing(const std::string& folder) {
+  return {fmt::format("page for the browser: acinus report {}", quote_for_shell(folder)),
+          fmt::format("ParaView 5.12 or newer: {}; older: run.xmf with \"XDMF Reader\"",
+                      quote_for_shell(folder + "/run.vtkhdf"))};
 }
 
 }  // namespace acinus::runs

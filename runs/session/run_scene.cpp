@@ -248,7 +248,7 @@ int SceneRun::give_up(const std::string& cause, const std::vector<std::int64_t>&
 void SceneRun::stop(const std::string& why) {
   recorder_.add_event("stopped", "stopped by " + why);
   close(RunOutcome::kStopped, "stopped by " + why);
-  progress_.note(fmt::format("stopped by {}", why) +
+  progress_.note(fmt::format("stopped by {} {}", why, describe_progress(world(), end_)) +
                  (options_.is_part ? "" : "; continue with: " + resume_command(options_)));
   // Obeyed; left there it would stop the resumed run too.
   if (world().ranks.is_root()) std::filesystem::remove(options_.out + "/STOP");
@@ -295,12 +295,13 @@ void SceneRun::report(const Notes& notes) {
 }
 
 void SceneRun::show_result() {
-  progress_.note(fmt::format("completed {:.4g} h in {:.1f} s; results in {}", time() / 3600,
-                             recorder_.wall_s(), options_.out));
+  progress_.note(fmt::format("completed {} in {}; results in {}", format_duration(time()),
+                             format_duration(recorder_.wall_s()), options_.out));
   for (const std::string& line :
        describe_result(world(), recorder_.totals(), recorder_.start_cells()))
     progress_.note(line);
-  if (!options_.is_part) progress_.note(advise_viewing(options_.out));
+  if (options_.is_part) return;
+  for (const std::string& line : advise_viewing(options_.out)) progress_.note(line);
 }
 
 int SceneRun::go() {
@@ -338,10 +339,6 @@ int SceneRun::go() {
                  stage.cpu, stage.calls);
   return code;
 }
-
-}  // namespace
-
-namespace {
 
 std::shared_ptr<spdlog::logger> open_log(const RunOptions& options, const Ranks& ranks) {
   if (!ranks.is_root()) return spdlog::null_logger_mt("run");

@@ -1,10 +1,8 @@
 #include "runs/session/sphere_overlaps.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <vector>
 
 namespace acinus::runs {
 
@@ -14,22 +12,17 @@ double largest_sphere(const coupling::State& state) {
   return radius;
 }
 
-std::string describe_sphere_overlaps(const coupling::World& world, const RunTotals& totals) {
+std::string advise_sphere_overlaps(const coupling::World& world, const RunTotals& totals) {
   const double radius = largest_sphere(world.state);
   if (radius == 0) return "";
-  std::vector<std::string> deep;
   // Sister cells overlap by more at birth.
-  if (world.state.divisions == 0 && totals.max_overlap_cbm_um > kSphereOverlap * radius)
-    deep.push_back(fmt::format("overlap by up to {:.2g} um", totals.max_overlap_cbm_um));
-  if (totals.cbm_vessel_um > kVesselOverlap * radius)
-    deep.push_back(fmt::format("reach up to {:.2g} um into vessels", totals.cbm_vessel_um));
-  if (deep.empty()) return "";
+  const bool deep =
+      world.state.divisions == 0 && totals.max_overlap_cbm_um > kSphereOverlap * radius;
+  if (!deep && totals.cbm_vessel_um <= kVesselOverlap * radius) return "";
   const bool plain = std::ranges::any_of(
       world.params.cbm, [](const cbm::Params& p) { return !p.correction.corrects(); });
   return fmt::format(
-      "spheres of radius {:.3g} um {}: their loads there are not those of deformable "
-      "cells{}",
-      radius, fmt::join(deep, " and "),
+      "spheres beyond a limit do not bear the loads of deformable cells there{}",
       plain ? ". With a law they are nearer: cbm.stiffness_correction = \"auto\"" : "");
 }
 

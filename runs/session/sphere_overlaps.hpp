@@ -17,7 +17,7 @@ inline constexpr double kSphereOverlap = 0.5, kVesselOverlap = 0.25;
 /// Radius of the largest sphere at present, um; 0 without spheres.
 double largest_sphere(const coupling::State& state);
 
-/// Sentence on overlaps beyond these limits, with advice; empty if there are none.
-std::string describe_sphere_overlaps(const coupling::World& world, const RunTotals& totals);
+/// Consequence of overlaps beyond these limits, with advice; empty if there are none.
+std::string advise_sphere_overlaps(const coupling::World& world, const RunTotals& totals);
 
 }  // namespace acinus::runs

@@ -91,7 +91,7 @@ class Names(unittest.TestCase):
             code, text = self.call("run", scene, "--threads", "1", "--out", out, "--set", "time.end=2 min", "--set", "output.every=30 s")
             self.assertEqual(code, 75, text)
             text = self.copied(text, r"continue with: (acinus run [^\n]*)")
-            self.copied(text, r"to look at it: (acinus report .*?) makes a page")
+            self.copied(text, r"page for the browser: (acinus report .*)")
             self.done("compare", out, out, "--tolerance", "positions=0", "--out", os.path.join(name, b"c.json"))
             for file in (b"run/summary.json", b"c.json", b"c_cells.svg"):
                 self.read(name, file).decode()  # is UTF-8

@@ -1,9 +1,13 @@
-/// Shipped scene of a cell between plates, against the exact force on the membrane of its net.
+/// Shipped scenes of cells on a plate, and of a cell between plates against the exact force on the
+/// membrane of its net.
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "coupling/simulation.hpp"
 #include "coupling/step/workspace_size.hpp"
@@ -59,6 +63,27 @@ TEST(PlatesScene, ForceIsThatOfTheMembrane) {
       EXPECT_NEAR(m["force_nN"].back() / exact, 1, tolerance);
     }
   }
+}
+
+/// Largest height of a cell's centre above the plate after an hour, um.
+double highest_center(const std::vector<std::string>& set) {
+  const Scene scene = read_scene(test::source_path("runs/scenes/plate.json"), set);
+  coupling::Simulation simulation(build_world(scene, Ranks::serial()).world);
+  EXPECT_TRUE(simulation.run_until(3600, {}).ok);
+  coupling::World world = simulation.world();
+  coupling::Workspace work;
+  coupling::size_workspace(world, work);
+  double height = 0;
+  for (const coupling::CellMeasure& cell : take_snapshot(world, work).cells)
+    height = std::max(height, cell.center.z());
+  return height;
+}
+
+// Centres start 12.15 um above the plate, about where round cells rest on it.
+TEST(PlateScene, AdhesionOfThePlateFlattensTheCells) {
+  const double without = highest_center({"walls.0.adhesion=0 J/m^2"}), with = highest_center({});
+  EXPECT_NEAR(without, 12.15, 0.5);
+  EXPECT_LT(with, without - 2);
 }
 
 }  // namespace

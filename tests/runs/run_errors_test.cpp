@@ -381,7 +381,7 @@ TEST_F(RunErrors, CheckCountsWhatItBuilt) {
   write("vessel.swc", "1 0 -60 50 0 4 -1\n2 0 60 50 0 4 1\n");
   const Outcome outcome = call({"check", "pair.json", "--set", "vessels.file=vessel.swc"});
   EXPECT_EQ(outcome.code, 0) << outcome.text;
-  EXPECT_CONTAINS(outcome.text, "1 DCM + 1 CBM cells from list, 120 um of vessels");
+  EXPECT_CONTAINS(outcome.text, "1 deformable cell, 1 sphere from list, 120 um of vessels");
 }
 
 TEST_F(RunErrors, EveryShippedSceneFits) {

@@ -1,4 +1,4 @@
-/// Overlaps of spheres that a run reports in words.
+/// Advice on overlaps of spheres.
 
 #include "runs/session/sphere_overlaps.hpp"
 
@@ -21,30 +21,30 @@ RunTotals totals(double pair, double vessel) {
   return t;
 }
 
-TEST(SphereOverlaps, AreReportedBeyondHalfAndAQuarterOfARadius) {
+constexpr const char* kConsequence = "spheres beyond a limit do not bear the loads";
+
+TEST(SphereOverlaps, HaveAConsequenceBeyondHalfAndAQuarterOfARadius) {
   const coupling::World w = spheres();
-  EXPECT_EQ(describe_sphere_overlaps(w, totals(5.9, 2.9)), "");
-  const std::string pair = describe_sphere_overlaps(w, totals(6.2, 2.9));
-  EXPECT_CONTAINS(pair, "spheres of radius 12 um overlap by up to 6.2 um: ");
-  EXPECT_CONTAINS(pair, "stiffness_correction");
-  EXPECT_CONTAINS(describe_sphere_overlaps(w, totals(6.2, 3.3)),
-                  "overlap by up to 6.2 um and reach up to 3.3 um into vessels: ");
+  EXPECT_EQ(advise_sphere_overlaps(w, totals(5.9, 2.9)), "");
+  EXPECT_CONTAINS(advise_sphere_overlaps(w, totals(6.2, 2.9)), kConsequence);
+  EXPECT_CONTAINS(advise_sphere_overlaps(w, totals(5.9, 3.3)), kConsequence);
+  EXPECT_CONTAINS(advise_sphere_overlaps(w, totals(6.2, 3.3)), "stiffness_correction");
 }
 
 TEST(SphereOverlaps, AdviseALawOnlyToPlainSpheres) {
   coupling::World w = spheres();
   w.params.cbm[0].correction.term.push_back({4e3, 4});
-  const std::string text = describe_sphere_overlaps(w, totals(0, 4));
-  EXPECT_CONTAINS(text, "reach up to 4 um into vessels");
+  const std::string text = advise_sphere_overlaps(w, totals(0, 4));
+  EXPECT_CONTAINS(text, kConsequence);
   EXPECT_EQ(text.find("stiffness_correction"), std::string::npos);
 }
 
 TEST(SphereOverlaps, OfSistersAreNoFaultAndDeformableCellsHaveNone) {
   coupling::World w = spheres();
   w.state.divisions = 1;
-  EXPECT_EQ(describe_sphere_overlaps(w, totals(17, 0)), "");
+  EXPECT_EQ(advise_sphere_overlaps(w, totals(17, 0)), "");
   const coupling::World deformable = coupling::make_test_world({{Vec3::Zero(), true}});
-  EXPECT_EQ(describe_sphere_overlaps(deformable, totals(17, 17)), "");
+  EXPECT_EQ(advise_sphere_overlaps(deformable, totals(17, 17)), "");
 }
 
 }  // namespace
