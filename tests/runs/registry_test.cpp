@@ -1,4 +1,5 @@
-/// Effects of keys: on resumed runs, shared starts, comparisons, laws and dissolving cells.
+/// Effects of keys: on resumed runs, shared starts, comparisons, laws and dissolving cells. Their
+/// explanation.
 
 #include "runs/scene/registry.hpp"
 
@@ -13,8 +14,10 @@
 #include "runs/experiments/read_scene.hpp"
 #include "runs/scene/differences.hpp"
 #include "runs/scene/entries.hpp"
+#include "runs/scene/explain.hpp"
 #include "runs/scene/key_values.hpp"
 #include "runs/scene/registry_blocks.hpp"
+#include "tests/messages.hpp"
 #include "tests/runs/scene_texts.hpp"
 
 namespace acinus::runs {
@@ -160,6 +163,18 @@ TEST(SceneDifferences, YoungerKeysWithTheirDefaultAreNoneInListsEither) {
   EXPECT_TRUE(differences(R"(, "speed": "0 um/h", "opens": "auto")").empty());
   EXPECT_EQ(differences(R"(, "speed": "1 um/h")").size(), 1u);
   EXPECT_EQ(differences(R"(, "of_another_version": true)").size(), 1u);
+}
+
+TEST(Explain, ABlockListsItsKeysWithDefaultAndMeaning) {
+  const std::string friction = explain_key("friction"), walls = explain_key("walls");
+  EXPECT_CONTAINS(friction, "\n  keys\n    dcm_dcm      \"5e10 N s/m^3\"  friction between two");
+  EXPECT_CONTAINS(friction, ", per contact area\n    cbm_cbm      \"auto\"          friction");
+  EXPECT_CONTAINS(walls, "    normal    [0, 0, 1]                 direction to the side");
+  EXPECT_CONTAINS(walls, "    mirror    (required)                true: a symmetry plane");
+  EXPECT_CONTAINS(walls, "Poisson ratio of the wall (only with mirror = false)\n");
+  EXPECT_CONTAINS(explain_key("cell_types"), "\n    cycle       (block)        growth to twice");
+  EXPECT_CONTAINS(explain_key("cell.dcm"), "\n    nodes                  162 ");
+  EXPECT_EQ(explain_key("wall.mirror").find("keys"), std::string::npos) << "no block";
 }
 
 }  // namespace
