@@ -2,13 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "acinus_version.hpp"
 #include "cli/command.hpp"
 #include "core/error.hpp"
 #include "core/parallel/ranks.hpp"
+#include "core/spelling.hpp"
 #include "runs/session/shell_quote.hpp"
 #include "runs/session/together.hpp"
 
@@ -35,6 +39,19 @@ void check_words(const CLI::App& command) {
       check(!word.empty(),
             fmt::format("{} \"\": is empty. Give a value, or leave it out.", option->get_name()));
   for (const CLI::App* part : command.get_subcommands()) check_words(*part);
+}
+
+/// Explains a first word that is no command.
+void check_first_word(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::ranges::find(names, word) != names.end()) return;
+  const bool is_scene = word.ends_with(".json");
+  const std::string hint =
+      is_scene ? fmt::format("Did you mean: acinus run {}?", runs::quote_for_shell(word))
+               : did_you_mean(nearest_name(word, names));
+  throw Error(fmt::format("{}: no such command.{} acinus --help lists them.", word,
+                          hint.empty() ? "" : " " + hint));
 }
 
 }  // namespace
@@ -68,6 +85,12 @@ int run_cli(int argc, const char* const* argv) {
                               add_serve(app),
                               add_openvt(app, command_line),
                               add_bench(app)};
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (first == "help" && argc == 2) {
+    fmt::print("{}", app.help());
+    return static_cast<int>(Exit::kDone);
+  }
+  if (!first.empty() && first.front() != '-') check_first_word(app, first);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "cli/command.hpp"
+#include "runs/assemble/shipped_laws.hpp"
 #include "runs/experiments/read_scene.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 #include "runs/session/guarded.hpp"
@@ -47,6 +48,7 @@ int run(CompareArguments& arguments) {
   if (!arguments.scene.empty()) {
     check(folders.empty(), "compare takes run folders or --scene, not both");
     runs::CompareScenes& options = arguments.scenes;
+    if (!options.law.empty()) options.law = runs::law_file(options.law);
     const runs::Scene scene =
         runs::read_scene(runs::find_scene_file(arguments.scene), arguments.set);
     if (options.folder.empty()) options.folder = scene.name + ".compare";
@@ -90,9 +92,11 @@ Command add_compare(CLI::App& app, const std::string& command_line) {
   command->add_option("--runs", o.folder, "folder for the runs of --scene")
       ->type_name("DIR")
       ->needs(scene);
-  command->add_option("--law", o.law, "with --scene: a third run with spheres of this law")
-      ->type_name("LAW.json")
-      ->check(CLI::ExistingFile)
+  command
+      ->add_option("--law", o.law,
+                   "with --scene: a third run with spheres of this law, a file or the name of a "
+                   "shipped one")
+      ->type_name("LAW")
       ->needs(scene);
   command
       ->add_flag("--equal-drag", o.equal_drag,

@@ -1,6 +1,9 @@
 #include "runs/assemble/shipped_laws.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
 
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
@@ -10,6 +13,19 @@
 namespace acinus::runs {
 
 std::vector<std::string> shipped_laws() { return shipped_files("laws"); }
+
+std::string law_file(const std::string& given) {
+  namespace fs = std::filesystem;
+  if (fs::exists(given)) return given;
+  std::vector<std::string> names;
+  for (const std::string& file : shipped_laws()) {
+    names.push_back(fs::path(file).stem().string());
+    if (names.back() == given) return file;
+  }
+  throw Error(fmt::format("{}: no such file, and no shipped law has this name; there are {}", given,
+                          fmt::join(names, ", ")),
+              Exit::kFileError);
+}
 
 std::string describe_law(const std::string& file) {
   try {

@@ -12,6 +12,10 @@ namespace acinus::runs {
 /// Files of the shipped laws, by name.
 std::vector<std::string> shipped_laws();
 
+/// File of a law that is given as a file or by the name of a shipped one.
+/// @throws Error if there is neither
+std::string law_file(const std::string& given);
+
 /// Cells of a law in words, e.g. "cells of 12 um, 162 nodes, K_V = 2500 Pa, W = 1e-5 J/m^2"; the
 /// error if the file cannot be read.
 std::string describe_law(const std::string& file);

@@ -100,6 +100,15 @@ TEST(Cli, UsageErrorsExitWithTwo) {
   }
 }
 
+TEST(Cli, AFirstWordThatIsNoCommandIsExplained) {
+  EXPECT_CONTAINS(call("rnu").text, "Did you mean \"run\"?");
+  EXPECT_CONTAINS(call("clump.json").text, "acinus run clump.json");
+  EXPECT_CONTAINS(call("nonsense").text, "no such command");
+  const Outcome help = call("help");
+  EXPECT_EQ(help.code, 0);
+  EXPECT_CONTAINS(help.text, "calibrate");
+}
+
 TEST(Cli, AFolderOfThatNameDoesNotHideAShippedScene) {
   EXPECT_EQ(call("check calibration").code, 0) << "the source tree has a folder calibration";
 }
