@@ -188,7 +188,7 @@ TEST(ReportScene, ListsOnlyValuesThatAreNotTheDefaults) {
     "walls": [{"speed": "0 um/h", "mirror": false}, {"mirror": true}], "unknown": 3})");
   std::string keys;
   for (const auto& c : list_changed_values(scene)) keys += c["key"].get<std::string>() + ";";
-  EXPECT_EQ(keys, "experiment;time.end;lobule.height;walls.0.mirror;unknown;");
+  EXPECT_EQ(keys, "experiment;time.end;lobule.height;walls.0.mirror;walls.1.mirror;unknown;");
 }
 
 TEST(ReportScene, ListsWallsInBaseUnits) {
