@@ -213,7 +213,7 @@ def check_errors(program):
                [*MPIRUN, "-n", "1", program, "run", scene, "--set", "seed=2", "--out", out, ":", "-n", "1"])
         call(program, 2, [scene, "--until", "1 min", "--out", out, "--threads", "1"])
         text = call(program, 2, [scene, "--until", "1 min", "--out", out, "--overwrite", "--threads", "1"])
-        if "too few cells to share" not in text or "2 processes of 1 threads" not in text:
+        if "too few cells to share" not in text or "2 processes of 1 thread" not in text:
             sys.exit(f"nothing is said of too few cells and of threads:\n{text}")
         text = call(program, 2, [scene, "--until", "1 min", "--out", out, "--overwrite", "--threads", "64"])
         if "processors are taken more than once: 128 threads" not in text:
