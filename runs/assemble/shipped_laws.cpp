@@ -15,16 +15,13 @@ namespace acinus::runs {
 std::vector<std::string> shipped_laws() { return shipped_files("laws"); }
 
 std::string law_file(const std::string& given) {
-  namespace fs = std::filesystem;
-  if (fs::exists(given)) return given;
-  std::vector<std::string> names;
-  for (const std::string& file : shipped_laws()) {
-    names.push_back(fs::path(file).stem().string());
-    if (names.back() == given) return file;
-  }
-  throw Error(fmt::format("{}: no such file, and no shipped law has this name; there are {}", given,
-                          fmt::join(names, ", ")),
-              Exit::kFileError);
+  if (std::filesystem::exists(given)) return given;
+  std::string shipped = find_shipped_file("laws", given);
+  check(!shipped.empty(),
+        fmt::format("{}: no such file, and no shipped law has this name; there are {}", given,
+                    fmt::join(shipped_names("laws"), ", ")),
+        Exit::kFileError);
+  return shipped;
 }
 
 std::string describe_law(const std::string& file) {

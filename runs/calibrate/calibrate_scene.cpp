@@ -74,12 +74,14 @@ calibration::Slide read_slide(const std::string& folder) {
   const io::RunReader reader(folder + "/run.vtkhdf");
   calibration::Slide out;
   std::vector<Vec3> first;
+  double start = 0;
   for (int k = 0; k < reader.n_frame(); ++k) {
     const calibration::ClumpSnapshot now = read_snapshot(reader, k, folder);
     if (k == 0) first = now.center;
+    const double offset = calibration::offset_of_layers(first, now.center);
+    if (k == 0) start = offset;
     out.time.push_back(reader.time_s(k));
-    out.slid.push_back(calibration::offset_of_layers(first, now.center) -
-                       calibration::offset_of_layers(first, first));
+    out.slid.push_back(offset - start);
   }
   return out;
 }

@@ -32,6 +32,16 @@ double reach_of(const Scene& scene) {
   return reach;
 }
 
+/// Scene of the same cell type and contact without clump and capsule, for cells of a list.
+Scene without_clump(const Scene& compression) {
+  Scene s = compression;
+  s.experiment = Experiment::kFree;
+  s.capsule = {};
+  s.cells.source = CellSource::kList;
+  s.cells.list.clear();
+  return s;
+}
+
 }  // namespace
 
 std::string choose_type(const Scene& scene, const std::string& type) {
@@ -103,11 +113,7 @@ Scene compression_scene(const Scene& scene, const ClumpOptions& options) {
 Scene pair_scene(const Scene& compression) {
   constexpr double kNearlyTouching = 0.995;  // of a radius from the plane between them
   constexpr double kTimeToRest = 6 * 3600;   // s; the overlap is within 0.3 % after a third of it
-  Scene s = compression;
-  s.experiment = Experiment::kFree;
-  s.capsule = {};
-  s.cells.source = CellSource::kList;
-  s.cells.list.clear();
+  Scene s = without_clump(compression);
   for (const int side : {-1, 1}) {
     CellEntry cell;
     cell.position = {side * kNearlyTouching * s.cell_types.begin()->second.radius, 0, 0};
@@ -126,17 +132,13 @@ Scene sliding_scene(const Scene& compression) {
   constexpr double kPull = 2e-3;         // kPa, force of a cell over its squared radius
   constexpr double kUsualFriction = 50;  // nN s/um^3, with which the times below go
   constexpr double kEnd = 6 * 3600, kEvery = 1800, kStep = 60;  // s
-  Scene s = compression;
+  Scene s = without_clump(compression);
   CellType& type = s.cell_types.begin()->second;
   type.cbm.medium_friction = type.dcm.medium_friction;
   s.friction.cbm_cbm.reset();
   s.friction.cbm_vessel = s.friction.dcm_vessel;
-  s.experiment = Experiment::kFree;
-  s.capsule = {};
   s.start_up = {};
   s.start_up.enabled = true;
-  s.cells.source = CellSource::kList;
-  s.cells.list.clear();
   const double spacing = kSpacing * type.radius, row = spacing * std::sqrt(3) / 2;
   for (const int side : {-1, 1})
     for (int j = 0; j < kAcross; ++j)

@@ -86,6 +86,19 @@ std::vector<std::string> shipped_files(const std::string& kind) {
   return files;
 }
 
+std::vector<std::string> shipped_names(const std::string& kind) {
+  std::vector<std::string> names;
+  for (const std::string& file : shipped_files(kind))
+    names.push_back(fs::path(file).stem().string());
+  return names;
+}
+
+std::string find_shipped_file(const std::string& kind, const std::string& name) {
+  for (const std::string& file : shipped_files(kind))
+    if (fs::path(file).stem() == name) return file;
+  return "";
+}
+
 std::vector<ShippedScene> shipped_scenes() { return list_documents(scene_folder()); }
 
 std::string find_document(const std::string& name, const std::string& kind,

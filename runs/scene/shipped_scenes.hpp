@@ -21,6 +21,12 @@ std::string scene_folder();
 /// that name beside the scenes. Empty without the folder.
 std::vector<std::string> shipped_files(const std::string& kind);
 
+/// Names of those files, without folder and ending.
+std::vector<std::string> shipped_names(const std::string& kind);
+
+/// Path of the shipped file of a name; empty if there is none.
+std::string find_shipped_file(const std::string& kind, const std::string& name);
+
 /// All JSON files of a folder by name, with the text of their key "description". One that cannot be
 /// parsed has its error as description.
 std::vector<ShippedScene> list_documents(const std::string& folder);

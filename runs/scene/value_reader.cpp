@@ -163,13 +163,11 @@ void ValueReader::read_file_name(const Key& key, const Node& node, const std::st
   std::error_code code;
   const bool is_file = node.text.find('\0') == std::string::npos && fs::is_regular_file(path, code);
   if (!is_file) {
-    std::vector<std::string> names;
-    if (key.shipped[0] != 0)
-      for (const std::string& shipped : shipped_files(key.shipped)) {
-        names.push_back(fs::path(shipped).stem().string());
-        if (names.back() == node.text) path = shipped;
-      }
-    if (std::ranges::count(names, node.text) == 0) {
+    const bool ships = key.shipped[0] != 0;
+    const std::string shipped = ships ? find_shipped_file(key.shipped, node.text) : "";
+    if (shipped.empty()) {
+      const std::vector<std::string> names =
+          ships ? shipped_names(key.shipped) : std::vector<std::string>{};
       report_.add_value(node, pointer,
                         "no such file: " + pointer_path(path) +
                             (names.empty() ? ""
@@ -177,6 +175,7 @@ void ValueReader::read_file_name(const Key& key, const Node& node, const std::st
                                                          fmt::join(names, ", "))));
       return;
     }
+    path = shipped;
   }
   value = path;
 }
