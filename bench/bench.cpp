@@ -20,6 +20,7 @@
 #include "bench/step/skipping.hpp"
 #include "bench/step/step_cost.hpp"
 #include "bench/stress/stress_suite.hpp"
+#include "bench/tissue/accuracy.hpp"
 #include "bench/tissue/contact_laws.hpp"
 #include "bench/tissue/out_of_sample.hpp"
 #include "bench/tissue/patch.hpp"
@@ -40,6 +41,7 @@ using Json = nlohmann::ordered_json;
 
 const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
   static const std::map<std::string, BenchTable (*)(const BenchOptions&)> all{
+      {"accuracy", bench_accuracy},
       {"assembly", bench_assembly},
       {"cbm100k", bench_cbm100k},
       {"cbm10k", bench_cbm10k},

@@ -12,6 +12,7 @@
 #include "runs/assemble/memory_need.hpp"
 #include "runs/assemble/shipped_laws.hpp"
 #include "runs/experiments/read_scene.hpp"
+#include "runs/scene/accuracy.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 #include "runs/session/result_text.hpp"
 
@@ -60,6 +61,8 @@ int check_scene(const CheckArguments& arguments) {
     fmt::print(stderr, "acinus: warning: {}\n", warning);
   if (arguments.resolved) {
     fmt::print("{}", scene.resolved_json);
+    if (scene.accuracy != runs::Accuracy::kByKey)
+      fmt::print(stderr, "{}\n", runs::describe_accuracy(scene));
     return 0;
   }
   const coupling::State& state = built.world.state;
@@ -70,6 +73,8 @@ int check_scene(const CheckArguments& arguments) {
       runs::name_of_choice(scene.cells.source),
       built.vessel_length > 0 ? fmt::format(", {:.0f} um of vessels", built.vessel_length) : "",
       scene.time.end / 3600, scene.hash);
+  if (scene.accuracy != runs::Accuracy::kByKey)
+    fmt::print("{}\n", runs::describe_accuracy(scene));
   for (const std::string& note : built.notes.info) fmt::print("{}\n", note);
   for (const std::string& note : later) fmt::print("{}\n", note);
   suggest_laws(scene, built.world.state);

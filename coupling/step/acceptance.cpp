@@ -102,8 +102,8 @@ bool turns_over(const dcm::State& s, std::size_t lane, const std::vector<double>
 /// Extremes of the displacements of cells.
 struct Moves {
   static constexpr auto kNone = static_cast<std::size_t>(-1);
-  double largest = 0, excess = 1;
-  std::size_t infinite = kNone, too_far = kNone, turned = kNone;  ///< lanes
+  double largest = 0, excess = 0;  ///< um; displacement over its limit
+  std::size_t infinite = kNone, too_far = kNone, turned = kNone;  ///< lanes; too_far if excess > 1
   double distance = 0;  ///< um, displacement of the lane too_far
 
   /// Merges two parts; the result does not depend on their order.
@@ -111,8 +111,7 @@ struct Moves {
     largest = std::max(largest, o.largest);
     infinite = std::min(infinite, o.infinite);
     turned = std::min(turned, o.turned);
-    // The cell with the largest excess among those that move too far.
-    if (o.excess > excess || (o.excess == excess && o.excess > 1 && o.too_far < too_far)) {
+    if (o.excess > excess || (o.excess == excess && o.too_far < too_far)) {
       excess = o.excess;
       too_far = o.too_far;
       distance = o.distance;
@@ -241,11 +240,9 @@ std::optional<DeepContact> find_deep_contact(const World& world, const Workspace
 
 /// Part of a displacement after which contacts and faces are checked again.
 constexpr double kHalf = 0.5;
-/// Share of the largest displacement that a shortened step takes.
-constexpr double kWithin = 0.95;
 
 Assessment reject(const State& s, std::string cause, std::size_t lane, double usable) {
-  return {false, std::move(cause), lineage_of(s, lane), usable, 0, 0};
+  return {false, std::move(cause), lineage_of(s, lane), usable, 0, 0, 0};
 }
 
 Assessment assess_moves(const World& world, double step, const Workspace& w) {
@@ -254,14 +251,15 @@ Assessment assess_moves(const World& world, double step, const Workspace& w) {
   Assessment a;
   if (m.infinite != Moves::kNone)
     a = reject(s, name_body(s, m.infinite) + ": its displacement is not finite", m.infinite, 0);
-  else if (m.too_far != Moves::kNone)
+  else if (m.excess > 1)
     a = reject(s,
                fmt::format("{} would move {:.3g} um in {:.4g} s", name_body(s, m.too_far),
                            m.distance, step),
-               m.too_far, kWithin / m.excess);
+               m.too_far, kMoveShare / m.excess);
   else if (m.turned != Moves::kNone)
     a = reject(s, name_body(s, m.turned) + ": a face would turn over", m.turned, kHalf);
   a.max_move = m.largest;
+  a.excess = m.excess;
   return a;
 }
 
@@ -299,9 +297,10 @@ Assessment assess_step(const World& world, double step, double part, const Statu
   const auto scope = w.timings.scope("acceptance");
   Assessment a = assess_moves(world, step, w);
   if (!a.accepted) return a;
-  const double max_move = a.max_move;
+  const Assessment moves = std::move(a);
   a = assess_contacts(world, w);
-  a.max_move = max_move;
+  a.max_move = moves.max_move;
+  a.excess = moves.excess;
   if (!a.accepted) return a;
   a.error = (2 - part) * estimate_error(world, step, w);
   const Numerics& n = world.params.numerics;

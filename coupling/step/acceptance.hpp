@@ -19,12 +19,16 @@ struct Assessment {
   double usable = 0;                ///< part of a rejected displacement to try; 0: none
   double error = 0;                 ///< um, estimated error
   double max_move = 0;              ///< um, largest displacement
+  double excess = 0;                ///< largest ratio of a displacement to its limit
 };
 
 /// Largest displacement of a cell in one step, um: max_move mean edges of its mesh; for a sphere
 /// those of a 162-node mesh of its radius. Infinite if max_move is 0.
 double move_limit(double max_move, double mean_edge);
 inline constexpr double kSphereEdge = 0.3;  ///< mean edge of a 162-node mesh, in radii
+
+/// Share of the largest displacement that a shortened step takes and the next step aims at.
+inline constexpr double kMoveShare = 0.95;
 
 /// Largest estimated error of an accepted step, in tolerances, with step-size control.
 inline constexpr double kMostError = 4;

@@ -47,12 +47,14 @@ bool want_coarse(const State& s, int iterations_per_solve) {
   return iterations_per_solve > (s.clock.coarse ? kCoarseOff : kCoarseOn);
 }
 
-/// Length of the next step from the error of this one; changes below a quarter are not worth it.
-double next_step(const Numerics& n, double step, double error) {
+/// Length of the next step from the error and the displacements of this one.
+double next_step(const Numerics& n, double step, const Assessment& a) {
   if (!n.adaptive) return n.max_step;
-  const double factor =
-      error > 0 ? std::clamp(0.9 * std::sqrt(n.tolerance / error), 0.5, 1.5) : 1.5;
-  return std::clamp(step * factor, n.min_step, n.max_step);
+  constexpr double kLeast = 0.5, kMost = 2;
+  double factor = kMost;
+  if (a.error > 0) factor = std::min(factor, 0.9 * std::sqrt(n.tolerance / a.error));
+  if (a.excess > 0) factor = std::min(factor, kMoveShare / a.excess);
+  return std::clamp(step * std::max(factor, kLeast), n.min_step, n.max_step);
 }
 
 /// Length of a retry over that of the rejected step. What is shortened too much to be taken is
@@ -116,7 +118,7 @@ StepResult take_step(World& world, Workspace& w, double limit) {
       s.clock.rejected += result.rejections;
       s.clock.shortened += part < 1 ? 1 : 0;
       // A step that ends at an event predicts little about the length of the next.
-      s.clock.step = computed < wanted ? wanted : next_step(n, step, a.error);
+      s.clock.step = computed < wanted ? wanted : next_step(n, step, a);
       result.accepted = true;
       result.step = step;
       result.error = a.error;

@@ -10,9 +10,9 @@ namespace {
 
 /// Largest gap, um, of neighbours included in the subworld.
 constexpr double kSettleReach = 0.5;
-/// Settling time of new cells, in steps of the whole world: long enough for stiff modes to relax,
-/// negligible against the flow of tissue.
-constexpr double kSteps = 1;
+/// Longest settling time of new cells, s: long enough for stiff modes to relax, negligible against
+/// the flow of tissue. No longer than a step of the whole world.
+constexpr double kLongest = 60;
 
 double pressure_of(const World& world, std::size_t lane, const std::vector<Vec3>& node) {
   const State& s = world.state;
@@ -31,7 +31,7 @@ Settled settle_cells(World& world, const std::vector<std::int64_t>& cells) {
     if (std::ranges::find(cells, s.dcm.lineage[l]) != cells.end()) fresh.dcm.push_back(l);
   Subworld sub;
   extract_at_rest(world, fresh, find_neighbours(world, fresh, kSettleReach), sub);
-  const Settling settling = relax(sub, kSteps * world.params.numerics.max_step);
+  const Settling settling = relax(sub, std::min(kLongest, world.params.numerics.max_step));
   Settled result{settling.ok, settling.cause, settling.steps, {}, {}};
   if (!settling.ok) return result;
 

@@ -6,6 +6,7 @@
 
 #include "io/checkpoint.hpp"
 #include "runs/experiments/experiment.hpp"
+#include "runs/scene/accuracy.hpp"
 #include "runs/scene/key_reader.hpp"
 #include "runs/scene/registry.hpp"
 #include "runs/scene/scene_rules.hpp"
@@ -42,6 +43,7 @@ Scene read_scene(const Document& document, const std::string& label) {
   Scene scene;
   Report report(document);
   read_keys(document, report, [&scene](Visitor& visitor) { describe(visitor, scene); });
+  apply_accuracy(report, scene);
   if (scene.name.empty()) scene.name = default_name(label);
   scene.cells.model = model_of(scene);
   name_the_nameless(scene);

@@ -24,10 +24,15 @@ enum class PullBy { kForce, kSpring };
 /// Surface of vessels that cells touch: a round cone a segment, or one closed surface about them.
 enum class VesselWalls { kCones, kMesh };
 
+/// Named accuracies; kByKey: every key has its own default.
+enum class Accuracy { kByKey, kFast, kBalanced, kFine };
+
 template <class E>
 inline constexpr const char* kChoices = nullptr;
 template <>
 inline constexpr const char* kChoices<Experiment> = kExperimentNames;
+template <>
+inline constexpr const char* kChoices<Accuracy> = "by-key|fast|balanced|fine";
 template <>
 inline constexpr const char* kChoices<CellModel> = "dcm|cbm|zoom";
 template <>

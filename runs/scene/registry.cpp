@@ -167,6 +167,15 @@ void describe_scene(Visitor& v, Scene& s) {
           .affects = Affects::kStep,  // of the start cells.model says it
           .compared = false},
          s.model);
+  choice(v,
+         {.name = "accuracy",
+          .meaning = "mesh, contact points, time step and solver that belong together, for tissue: "
+                     "sets dcm.nodes of all types, contact.quadrature, contact.skin, time.step, "
+                     "time.tolerance, time.max_move, time.extrapolate and "
+                     "solver.tolerance where the scene does not; by-key leaves their defaults",
+          .affects = Affects::kNothing,  // of the keys it sets
+          .compared = false},
+         s.accuracy);
 }
 
 /// Keys of the boundary: vessels, walls, capsule and meshes.

@@ -230,6 +230,7 @@ struct Scene {
   std::uint64_t seed = coupling::LifeParams{}.seed;
   Experiment experiment = Experiment::kFree;
   std::optional<CellModel> model;  ///< replaces cells.model; empty = cells.model stays
+  Accuracy accuracy = Accuracy::kByKey;
   TimeBlock time;
   coupling::Numerics numerics;
   StartUpBlock start_up;
