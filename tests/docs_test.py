@@ -215,7 +215,7 @@ class Page:
     def check_span(self, span):
         facts, word = self.facts, re.split(r"[ =:]", span)[0]
         if FILE_NAME.fullmatch(span):
-            if span not in facts.names and not facts.is_written(span):
+            if span not in facts.names and f"<!-- write: {span} -->" not in self.text and not facts.is_written(span):
                 yield f"{span}: no such file, and no source writes one"
         elif FOLDER.fullmatch(span) and not facts.top_path.match(span):
             yield from self.check_folder(span)
