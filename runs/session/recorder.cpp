@@ -73,6 +73,7 @@ Notes Recorder::resume() {
   get_totals(data, life_);
   wall_before_ = totals_.wall_s;
   cpu_before_ = totals_.cpu_s;
+  before_ = get_attempts(data);
   last_frame_ = data.number("file/last_frame");
   excess_ = {data.number("file/excess"), "some cells overlap beyond what contact mends", {}};
   observed_ = get_observed_run(data);
@@ -156,6 +157,7 @@ io::CheckpointData Recorder::make_checkpoint() {
   totals_.cpu_s = cpu_before_ + cpu_seconds() - started_cpu_;
   put_totals(totals_, data);
   put_totals(life_, data);
+  put_attempts(attempts(), data);
   put_observed_run(observed_, data);
   data.put_number("file/last_frame", last_frame_);
   data.put_number("file/excess", excess_.depth_um);
@@ -181,8 +183,9 @@ void Recorder::close(RunOutcome status, const std::string& cause) {
   const coupling::Workspace& work = simulation_.work();
   std::vector<std::string> skipped = list_skipped(world);
   for (const std::string& what : list_skipped_work(world, work)) skipped.push_back(what);
-  write_summary(options_.out, {scene_, options_, world, totals_, life_, observed_.measures,
-                               work.timings, skipped, notes_, status, cause, options_.threads});
+  write_summary(options_.out,
+                {scene_, options_, world, totals_, life_, observed_.measures, attempts(),
+                 work.timings, skipped, notes_, status, cause, options_.threads});
 }
 
 }  // namespace acinus::runs

@@ -16,6 +16,7 @@
 #include "runs/assemble/notes.hpp"
 #include "runs/experiments/observe.hpp"
 #include "runs/experiments/observed_run.hpp"
+#include "runs/session/attempts.hpp"
 #include "runs/session/idle_rules.hpp"
 #include "runs/session/make_frame.hpp"
 #include "runs/session/run_options.hpp"
@@ -64,6 +65,8 @@ class Recorder {
   /// Wall time including the runs it continues, s.
   double wall_s() const { return wall_before_ + wall_seconds() - started_; }
   const RunTotals& totals() const { return totals_; }
+  /// All attempts of the run with this one.
+  Attempts attempts() const { return add_attempt(before_, simulation_.work().timings); }
   int start_cells() const { return static_cast<int>(life_.start_cells); }
   /// Rules of life that never acted so far.
   std::vector<std::string> idle_rules() const {
@@ -87,6 +90,7 @@ class Recorder {
   LifeTotals life_;
   ObservedRun observed_;
   Notes notes_;
+  Attempts before_;  ///< attempts that this one continues
   double started_ = wall_seconds(), started_cpu_ = cpu_seconds();
   double wall_before_ = 0, cpu_before_ = 0;  ///< of the runs this one continues, s
   static constexpr double kNoFrame = -1e300;

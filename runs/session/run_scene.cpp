@@ -334,9 +334,9 @@ int SceneRun::go() {
              ranks, world().state.clock.accepted - accepted_before_, wall_seconds() - started_))
       if (ranks.is_root()) fmt::print("{}\n", line);
   if (options_.timings && ranks.is_root())
-    for (const StageTime& stage : simulation_.work().timings.stages())
-      fmt::print("{:20s} {:9.3f} s wall {:9.3f} s CPU {:8d} calls\n", stage.name, stage.wall,
-                 stage.cpu, stage.calls);
+    for (const std::string& line :
+         describe_stages(simulation_.work().timings, recorder_.attempts()))
+      fmt::print("{}\n", line);
   return code;
 }
 

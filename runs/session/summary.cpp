@@ -8,7 +8,6 @@
 #include "acinus_version.hpp"
 #include "core/parallel/machine.hpp"
 #include "core/parallel/memory.hpp"
-#include "core/parallel/timing.hpp"
 #include "io/disk.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/experiment.hpp"
@@ -126,6 +125,13 @@ OrderedJson list_measures(const SummaryInput& in) {
   return measures;
 }
 
+/// Wall time of each stage, s.
+OrderedJson wall_of_stages(const std::vector<StageTime>& stages) {
+  OrderedJson j = OrderedJson::object();
+  for (const StageTime& stage : stages) j[stage.name] = finite_number(stage.wall);
+  return j;
+}
+
 }  // namespace
 
 void write_summary(const std::string& folder, const SummaryInput& in) {
@@ -139,10 +145,9 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
   j["skipped"] = in.skipped;
   j["notes"] = in.notes.info;
   j["warnings"] = in.notes.warnings;
-  OrderedJson timings = OrderedJson::object();
-  for (const StageTime& stage : in.timings.stages())
-    timings[stage.name] = finite_number(stage.wall);
-  j["timings"] = timings;
+  j["attempts"] = in.attempts.count;
+  j["timings"] = wall_of_stages(in.attempts.stages);
+  j["timings_last_attempt"] = wall_of_stages(in.timings.stages());
   j["measures"] = list_measures(in);
   io::write_text_file(folder + "/summary.json",
                       j.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n");

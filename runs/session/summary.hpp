@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "core/parallel/timing.hpp"
 #include "coupling/world/world.hpp"
 #include "runs/assemble/notes.hpp"
 #include "runs/experiments/measures.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/session/attempts.hpp"
 #include "runs/session/run_options.hpp"
 #include "runs/session/run_outcome.hpp"
 #include "runs/session/totals.hpp"
@@ -23,7 +23,8 @@ struct SummaryInput {
   const RunTotals& totals;
   const LifeTotals& life;
   const Measures& measures;
-  const Timings& timings;
+  Attempts attempts;       ///< with this one
+  const Timings& timings;  ///< of this attempt
   const std::vector<std::string>& skipped;
   const Notes& notes;
   RunOutcome status;

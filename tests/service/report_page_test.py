@@ -152,6 +152,14 @@ def operate_rest(browser):
     assert wide <= 0, f"the page is {wide} px wider than the window"
 
 
+def check_stages(browser):
+    """A resumed run has its wall time per stage over all attempts and of the last; the last is not more."""
+    text = browser.run("[...document.querySelectorAll('h3')].find((h) => h.textContent === 'Wall time per stage')?.parentElement.textContent ?? ''")
+    assert "Sum over 2 attempts: the run was resumed once." in text and "last attempt" in text, text
+    rows = browser.run("document.querySelectorAll('.bars.resumed > i').length")
+    assert rows > 3 and browser.run("document.querySelectorAll('.bars.resumed > .amount').length") == 2 * rows + 2
+
+
 def try_page(browser, page, keep):
     name = os.path.splitext(os.path.basename(page))[0]
     browser.events.clear()
@@ -175,6 +183,8 @@ def make_pages(acinus, folder):
     run = os.path.join(folder, "small.run")
     subprocess.run([acinus, "run", "lobule_hybrid", "--set", "start_up.growth_time=30 min", "--set", "output.every=10 min", "--until", "30 min",
                     "--threads", "1", "--out", run, "--quiet"], check=True)
+    subprocess.run([acinus, "run", "lobule_hybrid", "--set", "start_up.growth_time=30 min", "--set", "output.every=10 min", "--until", "40 min",
+                    "--threads", "1", "--out", run, "--quiet", "--resume"], check=True)
     other = os.path.join(folder, "other.run")
     subprocess.run([acinus, "run", "two_cells", "--until", "10 min", "--threads", "1", "--out", other, "--quiet"], check=True)
     pages = [os.path.join(folder, name) for name in ("one.html", "two.html")]
@@ -200,6 +210,8 @@ def main():
             browser.open(1400, 1000)
             for page in pages:
                 try_page(browser, page, arguments.keep)
+                if not arguments.pages and page == pages[0]:
+                    check_stages(browser)
         finally:
             browser.close()
     return 0

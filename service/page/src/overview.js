@@ -4,7 +4,6 @@ import { nameOf, shownIn, unitOfName } from "./names.js";
 import { cellCounts, duration, make, nice, number, table, tiles } from "./text.js";
 
 const MOST_RESULTS = 4;
-const RESUMED = 1.5; // wall time over that of the stages, above which earlier sessions are missing
 const NO_RESULT = /^(max_overlap|wall_s|cpu_s|radius_um|adhesion_energy)/; // checks, costs, input
 
 function status(run) {
@@ -81,14 +80,20 @@ function notes(run) {
   return make("ul", { class: "warnings" }, ...warnings.map((w) => make("li", {}, w)));
 }
 
+// Wall time per stage over all attempts, and of the last one if the run was resumed.
 function stages(run) {
-  const times = Object.entries(run.summary.timings ?? {}).filter(([, s]) => s > 0).sort((a, b) => b[1] - a[1]);
+  const { timings = {}, timings_last_attempt: last = {}, attempts = 1 } = run.summary;
+  const times = Object.entries(timings).filter(([, s]) => s > 0).sort((a, b) => b[1] - a[1]);
   if (times.length === 0) return null;
   const most = times[0][1];
   const sum = times.reduce((a, [, s]) => a + s, 0);
+  const resumed = attempts > 1;
+  const head = resumed ? [make("span", {}), make("span", {}), make("span", { class: "amount" }, "all attempts · share"), make("span", { class: "amount" }, "last attempt")] : [];
   return make("div", {}, make("h3", {}, "Wall time per stage"),
-    make("p", { class: "quiet" }, `Rejected attempts are included.${run.summary.wall_s > RESUMED * sum ? ` The stages cover ${duration(sum)} of ${duration(run.summary.wall_s)}: those of the last session of a resumed run.` : ""}`), make("div", { class: "bars" }, ...times.flatMap(([name, s]) => [
-    make("span", {}, name), make("i", { style: `width:${Math.max(0.5, (100 * s) / most)}%` }), make("span", { class: "amount" }, `${duration(s)} · ${number(+((100 * s) / sum).toPrecision(2))} %`)])));
+    make("p", { class: "quiet" }, `Rejected steps are included.${resumed ? ` Sum over ${attempts} attempts: the run was resumed ${attempts === 2 ? "once" : `${attempts - 1} times`}.` : ""}`),
+    make("div", { class: resumed ? "bars resumed" : "bars" }, ...head, ...times.flatMap(([name, s]) => [
+      make("span", {}, name), make("i", { style: `width:${Math.max(0.5, (100 * s) / most)}%` }), make("span", { class: "amount" }, `${duration(s)} · ${number(+((100 * s) / sum).toPrecision(2))} %`),
+      ...(resumed ? [make("span", { class: "amount" }, last[name] > 0 ? duration(last[name]) : "–")] : [])])));
 }
 
 const plain = (value) => (value === null ? "none" : typeof value === "string" ? value : Array.isArray(value) ? value.map(plain).join(", ") || "empty" : JSON.stringify(value));
