@@ -34,6 +34,7 @@ class TokenCursor {
     skip_gap();
     const TextPlace origin = here(source);
     skip_token();
+    end_ = here(source);
     return origin;
   }
 
@@ -48,6 +49,9 @@ class TokenCursor {
     while (at_ < std::min(byte, text_.size())) step();
     return here(source);
   }
+
+  /// Place just behind the last token.
+  TextPlace end_of_last() const { return end_; }
 
   char previous_character() const { return last_; }
   bool at_end() const { return at_ >= text_.size(); }
@@ -115,7 +119,17 @@ class TokenCursor {
   std::size_t at_ = 0, line_start_ = 0, n_continuation_ = 0;
   int line_ = 1;
   char last_ = '\0';
+  TextPlace end_{};
 };
+
+/// True of the parser's words if it found a value or a name where the object or list ends or a
+/// comma goes on with it.
+bool is_about_separator(std::string_view what) {
+  const bool expects = what.ends_with("expected '}'") || what.ends_with("expected ']'");
+  const bool value = what.find("literal;") != std::string_view::npos ||
+                     what.starts_with("unexpected '{'") || what.starts_with("unexpected '['");
+  return expects && value;
+}
 
 /// Builds the tree from the parser's events.
 class TreeBuilder : public nlohmann::json_sax<Json> {
@@ -192,8 +206,14 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     if (what.size() > 160) what = what.substr(0, 100) + " ... " + what.substr(what.size() - 40);
     const bool inside_token = what.starts_with("invalid string") &&
                               what.find("missing closing quote") == std::string::npos;
-    const TextPlace origin = inside_token && position > 0 ? cursor_.at_byte(source_, position - 1)
-                                                          : cursor_.peek(source_);
+    const TextPlace before = cursor_.end_of_last();
+    TextPlace origin = inside_token && position > 0 ? cursor_.at_byte(source_, position - 1)
+                                                    : cursor_.peek(source_);
+    const bool apart = before.line != origin.line || before.column != origin.column;
+    if (is_about_separator(what) && apart && cursor_.previous_character() != ',') {
+      what += ". Is there a comma missing here?";
+      origin = before;
+    }
     if (cursor_.previous_character() == ',' && !inside_token &&
         (what.find("'}'") != std::string::npos || what.find("']'") != std::string::npos)) {
       what += ". Is there a comma too many?";

@@ -123,6 +123,18 @@ TEST(SceneErrors, SyntaxErrorsHaveAPlace) {
   starts("{\n  \"time\": {\"end\": \"2 h\",}\n}",
          "scene.json:2:25 /time: not valid JSON: unexpected '}'; expected string literal. Is there "
          "a comma too many?");
+  const std::string comma = "Is there a comma missing here?";
+  starts("{\n  \"name\": \"a\"\n  \"seed\": 1\n}",
+         "scene.json:2:14 /: not valid JSON: unexpected string literal; expected '}'. " + comma);
+  starts("{\n  \"time\": {} // so\n\n  /* then */ \"seed\": 1\n}",
+         "scene.json:2:13 /: not valid JSON: unexpected string literal; expected '}'. " + comma);
+  starts(
+      "{\n  \"seeds\": [1\n 2]\n}",
+      "scene.json:2:14 /seeds: not valid JSON: unexpected number literal; expected ']'. " + comma);
+  starts("{\"walls\": [{} {}]}",
+         "scene.json:1:14 /walls: not valid JSON: unexpected '{'; expected ']'. " + comma);
+  EXPECT_EQ(failure("{\"seed\": 01}").find(comma), std::string::npos);
+  EXPECT_EQ(failure("{\"seed\": 1").find(comma), std::string::npos);
   starts("{\n  \"seed\": 01\n}", "scene.json:2:12 /: not valid JSON");
   starts("{\n  \"seed\": tru\n}", "scene.json:2:11 /: not valid JSON: invalid literal");
   starts("{\"seed\": 1} x", "scene.json:1:13 /: not valid JSON");

@@ -160,6 +160,16 @@ def check_stages(browser):
     assert rows > 3 and browser.run("document.querySelectorAll('.bars.resumed > .amount').length") == 2 * rows + 2
 
 
+def check_head(browser):
+    """Mean contact pressures of both models in Pa, names in words."""
+    head = browser.run("[...document.querySelectorAll('.tiles div')].map((d) => [d.querySelector('dt').textContent, d.querySelector('dd').textContent])")
+    for model in ("deformable cells", "spheres"):
+        [value] = [value for name, value in head if name == f"Mean contact pressure of {model}"]
+        assert value.endswith(" Pa") and float(value.split()[0]) != 0, head
+    assert any(name.startswith("Lesion radius, mean of the three inner rings") for name, _ in head), head
+    assert not any("_" in name for name, _ in head), head
+
+
 def try_page(browser, page, keep):
     name = os.path.splitext(os.path.basename(page))[0]
     browser.events.clear()
@@ -212,6 +222,7 @@ def main():
                 try_page(browser, page, arguments.keep)
                 if not arguments.pages and page == pages[0]:
                     check_stages(browser)
+                    check_head(browser)
         finally:
             browser.close()
     return 0

@@ -38,6 +38,15 @@ function observable(runs, name) {
   return plot(nameOf(name), shownIn(runs.find((r) => r.observables[name])?.observables[name].unit)[1], curves);
 }
 
+// Of a hybrid the mean contact pressures of both models in one plot.
+const PRESSURES = [["contact_pressure_mean_dcm_Pa", "deformable cells"], ["contact_pressure_mean_cbm_Pa", "spheres"]];
+
+function mainPlot(runs, name) {
+  const both = PRESSURES.filter(([n]) => varies(runs[0].observables[n]));
+  if (several(runs) || both.length < 2 || !both.some(([n]) => n === name)) return observable(runs, name);
+  return plot("Mean contact pressure", "Pa", both.map(([n, label]) => ({ ...inShownUnit(runs[0].observables[n]), label })));
+}
+
 // Definitions of the lesion's area in one plot; the first is the one that "closed" refers to.
 const LESION_AREAS = [["lesion_area_relative", "nearest cell of each slice (closed: below 0.05)"], ["lesion_area_rings_centre_floor", "nearest cell of each ring"],
   ["lesion_area_flooded", "open to the central vein"]];
@@ -62,7 +71,7 @@ function measured(runs) {
   const select = make("select", { id: "observable", "aria-label": "Quantity to plot", onchange: () => slot.replaceChildren(observable(runs, select.value)) }, ...names.map((n) => make("option", { value: n }, nameOf(n))));
   select.value = names.find((n) => !first.includes(n) && runs.some((r) => moves(r.observables[n]))) ?? names[0];
   slot.append(observable(runs, select.value));
-  return [...first.map((n) => observable(runs, n)), make("div", { class: "choose" }, make("label", { for: "observable" }, "Also measured: "), select, slot)];
+  return [...first.map((n) => mainPlot(runs, n)), make("div", { class: "choose" }, make("label", { for: "observable" }, "Also measured: "), select, slot)];
 }
 
 const PARTNER = { dcm: "deformable cell", cbm: "sphere", vessels: "vessel", walls: "wall" };

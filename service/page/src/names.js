@@ -1,7 +1,9 @@
 // Names of quantities in plain words, and one unit for each.
 
 const NAMES = {
-  mean_pressure: "Mean contact pressure", lesion_area_relative: "Relative lesion area", lesion_radius_rings_centre: "Lesion radius (nearest cell centre of each ring)",
+  mean_pressure: "Mean contact pressure", lesion_area_relative: "Relative lesion area", lesion_radius_rings_centre: "Lesion radius, mean of the three inner rings of cells, by centres",
+  lesion_radius_rings_surface: "Lesion radius, mean of the three inner rings of cells, by surfaces", lesion_radius: "Lesion radius",
+  lesion_radius_slices_centre: "Lesion radius, mean over slices, by the nearest cell centre", lesion_radius_slices_surface: "Lesion radius, mean over slices, by the nearest cell surface",
   front_radius_mean: "Mean radius of the front", front_roughness: "Roughness of the front", radius_of_gyration: "Radius of gyration", gap: "Distance of the plates",
   pull_force: "Pulling force", pull_force_relative: "Relative pulling force", pull_off: "Pull-off force", ratio_to_piWR: "Pull-off force over π W R", force: "Force",
   shell_force: "Force on a thin shell", adhesion_energy: "Adhesion energy", radius: "Radius", interface_force: "Forces between deformable cells and spheres",

@@ -4,6 +4,7 @@ import { nameOf, shownIn, unitOfName } from "./names.js";
 import { cellCounts, duration, make, nice, number, table, tiles } from "./text.js";
 
 const MOST_RESULTS = 4;
+const MODEL_PRESSURES = [["dcm", "contact_pressure_mean_dcm_Pa"], ["cbm", "contact_pressure_mean_cbm_Pa"]]; // both in a hybrid
 const NO_RESULT = /^(max_overlap|wall_s|cpu_s|radius_um|adhesion_energy)/; // checks, costs, input
 
 function status(run) {
@@ -29,17 +30,20 @@ const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1) + (/[.!?
 function keyFigures(run) {
   const s = run.summary;
   const last = (curve) => curve.value.findLast((v) => v != null);
-  const curves = mainQuantities([run]).map((name) => {
+  const tile = (name) => {
     const [factor, unit] = shownIn(run.observables[name].unit);
     const value = last(run.observables[name]);
     return [nameOf(name), value == null ? "–" : `${number(factor * value)} ${nice(unit)}`];
-  });
+  };
+  const pressures = MODEL_PRESSURES.filter(([model, name]) => run.observables[name] && (s.cells ? s.cells[model] > 0 : last(run.observables[name]) > 0));
+  const both = pressures.length > 1 ? pressures.map(([, name]) => tile(name)) : [];
+  const curves = mainQuantities([run]).filter((name) => both.length === 0 || !/pressure_mean/.test(name)).map(tile);
   const results = Object.entries(run.results ?? {}).filter(([name]) => !NO_RESULT.test(name)).map(([name, value]) => [nameOf(name), `${number(value)} ${unitOfName(name)}`]);
   const frames = run.frames.list;
   return [
     ["Cells", s.cells ? cellCounts(s.cells) : frames.length > 0 ? String(frames.at(-1).cells) : "–"],
     ["Simulated time", s.simulated_s == null ? (frames.length > 0 ? duration(frames.at(-1).time) : "–") : duration(s.simulated_s)],
-    ...[...results, ...curves].slice(0, MOST_RESULTS),
+    ...[...results, ...curves].slice(0, MOST_RESULTS), ...both,
   ];
 }
 
