@@ -8,7 +8,6 @@
 #include "core/parallel/memory.hpp"
 #include "core/parallel/stop.hpp"
 #include "runs/assemble/build_world.hpp"
-#include "runs/assemble/law_parameters.hpp"
 #include "runs/assemble/memory_need.hpp"
 #include "runs/assemble/shipped_laws.hpp"
 #include "runs/experiments/read_scene.hpp"
@@ -48,12 +47,7 @@ int check_scene(const CheckArguments& arguments) {
       runs::read_scene(runs::find_scene_file(arguments.scene_file), arguments.set);
   runs::Scene plain = scene;
   runs::use_shipped_laws(plain);
-  std::vector<std::string> later;
-  for (auto& [name, type] : plain.cell_types) {
-    if (type.cbm.stiffness_correction != "auto" || !runs::may_have_spheres(plain)) continue;
-    type.cbm.stiffness_correction = "none";
-    later.push_back(name + ": calibrated when the scene runs, if that was not done before");
-  }
+  const std::vector<std::string> later = runs::leave_out_calibrations(plain);
   runs::check_memory(plain, machine_memory());
   const runs::BuiltWorld built =
       runs::build_world(plain, Ranks::serial());  // throws for geometry that does not fit
@@ -76,7 +70,8 @@ int check_scene(const CheckArguments& arguments) {
   if (scene.accuracy != runs::Accuracy::kByKey)
     fmt::print("{}\n", runs::describe_accuracy(scene));
   for (const std::string& note : built.notes.info) fmt::print("{}\n", note);
-  for (const std::string& note : later) fmt::print("{}\n", note);
+  for (const std::string& name : later)
+    fmt::print("{}: calibrated when the scene runs, if that was not done before\n", name);
   suggest_laws(scene, built.world.state);
   return 0;
 }

@@ -45,8 +45,11 @@ Command add_report(CLI::App& app) {
       ->type_name("FILE.html");
   command->add_option("--png", o.png, "also a picture of it; needs Chromium or Chrome")
       ->type_name("FILE.png");
-  command->add_option("--title", o.title, "headline (default: the name of the first)")
-      ->type_name("TEXT");
+  command
+      ->add_option("--title", o.titles,
+                   "headline instead of the file's name; repeated: of the first, the second ...")
+      ->type_name("TEXT")
+      ->allow_extra_args(false);
   command->add_option("--frames", o.most_frames, "most frames of a run (default: 50)")
       ->type_name("N")
       ->check(CLI::Range(1, 100000));

@@ -16,7 +16,8 @@ namespace {
 struct ServeArguments {
   service::ServeOptions serve;
   bool no_token = false;
-  std::string prepare;  ///< run folder of a submission to prepare; "" = serve
+  std::string prepare;  ///< run folder of a submission to prepare; "" = none
+  std::string preview;  ///< folder of a submission to draw; "" = none
   std::string checkpoint_every, max_walltime, max_memory, max_run_disk, max_disk, max_body;
 };
 
@@ -32,12 +33,14 @@ int run(ServeArguments& a) {
   read(o.max_disk, "--max-disk", a.max_disk, parse_size);
   read(o.max_body, "--max-body", a.max_body, parse_size);
   o.token = !a.no_token;
-  if (a.prepare.empty()) {
+  if (a.prepare.empty() && a.preview.empty()) {
     service::serve(o);
     return 0;
   }
   try {
-    if (std::filesystem::exists(a.prepare + "/" + service::kEvaluationFile))
+    if (!a.preview.empty())
+      service::write_preview(a.preview, o);
+    else if (std::filesystem::exists(a.prepare + "/" + service::kEvaluationFile))
       service::prepare_evaluation(a.prepare, o);
     else
       service::prepare_submission(a.prepare, o);
@@ -99,7 +102,9 @@ Command add_serve(CLI::App& app) {
   command->add_option("--max-body", a.max_body, "most of one request (default: 16MB)")
       ->type_name("SIZE");
   command->add_flag("--quiet", o.quiet, "warnings and errors only");
-  command->add_option("--prepare", a.prepare)->group("");  // by the service itself; not for users
+  // By the service itself; not for users.
+  command->add_option("--prepare", a.prepare)->group("");
+  command->add_option("--preview", a.preview)->group("");
   return {command, [arguments] { return cli::run(*arguments); }};
 }
 

@@ -62,4 +62,15 @@ void use_shipped_laws(Scene& scene) {
   }
 }
 
+std::vector<std::string> leave_out_calibrations(Scene& scene) {
+  std::vector<std::string> left_out;
+  if (!may_have_spheres(scene)) return left_out;
+  for (auto& [name, type] : scene.cell_types) {
+    if (type.cbm.stiffness_correction != "auto") continue;
+    type.cbm.stiffness_correction = "none";
+    left_out.push_back(name);
+  }
+  return left_out;
+}
+
 }  // namespace acinus::runs

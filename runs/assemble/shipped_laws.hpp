@@ -28,4 +28,9 @@ std::string find_shipped_law(const Scene& scene, const CellType& type);
 /// Replaces stiffness_correction "auto" of every cell type that a shipped law fits by its file.
 void use_shipped_laws(Scene& scene);
 
+/// Replaces the remaining "auto" by "none" if the scene may have spheres, for uses that never step
+/// and need no calibration.
+/// @return the cell types concerned
+std::vector<std::string> leave_out_calibrations(Scene& scene);
+
 }  // namespace acinus::runs

@@ -10,9 +10,11 @@ if [[ ${1-} == --check ]]; then
   trap 'rm -rf -- "$out"' EXIT
 fi
 [[ -d node_modules ]] || npm ci --no-audit --no-fund --silent
-for page in report service; do
+for page in report service preview; do
   npx esbuild src/$page.js --bundle --minify --format=iife --target=chrome100,firefox113,safari16.4 --legal-comments=none \
     --log-level=warning --outfile="$out/$page.min.js"
+done
+for page in report service; do
   npx esbuild src/$page.css --bundle --minify --log-level=warning --outfile="$out/$page.min.css"
 done
 {

@@ -2,7 +2,7 @@
 set(page ${CMAKE_CURRENT_SOURCE_DIR}/page)
 set(assets "#include \"service/page/page_assets.hpp\"\nnamespace acinus::service {\n")
 foreach(asset kPageScript=bundle/report.min.js kPageStyle=bundle/report.min.css kPageBody=report.html kPageLicences=bundle/licences.txt
-        kServiceScript=bundle/service.min.js kServiceStyle=bundle/service.min.css kServicePage=service.html kLoginPage=login.html)
+        kServiceScript=bundle/service.min.js kPreviewScript=bundle/preview.min.js kServiceStyle=bundle/service.min.css kServicePage=service.html kLoginPage=login.html)
   string(REPLACE "=" ";" asset ${asset})
   list(GET asset 0 name)
   list(GET asset 1 file)

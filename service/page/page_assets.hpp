@@ -8,6 +8,7 @@ namespace acinus::service {
 /// Assets of report pages, as bundled by bundle.sh.
 extern const std::string_view kPageScript, kPageStyle, kPageBody, kPageLicences;
 /// Assets of the service's pages.
-extern const std::string_view kServiceScript, kServiceStyle, kServicePage, kLoginPage;
+extern const std::string_view kServiceScript, kPreviewScript, kServiceStyle, kServicePage,
+    kLoginPage;
 
 }  // namespace acinus::service

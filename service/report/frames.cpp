@@ -125,6 +125,12 @@ std::size_t PackedRun::bytes() const {
   return sum;
 }
 
+PackedRun pack_frame(const io::Frame& frame) {
+  PackedRun packed;
+  add_frame(packed, frame, 0);
+  return packed;
+}
+
 PackedRun pack_frames(RunRecord& run, const FrameLimits& limits) {
   int n = std::min(limits.most_frames, run.n_frame());
   while (n > 0) {

@@ -58,4 +58,7 @@ struct PackedRun {
 /// least the last. Unreadable frames are left out and reported in run.damage.
 PackedRun pack_frames(RunRecord& run, const FrameLimits& limits);
 
+/// Packs a single frame.
+PackedRun pack_frame(const io::Frame& frame);
+
 }  // namespace acinus::service

@@ -88,7 +88,11 @@ std::string write_report(const ReportOptions& options) {
     }
   }
   if (folders.size() > 1) data["comparison"] = describe_comparison(folders);
-  if (!options.title.empty()) data["items"][0]["name"] = options.title;
+  check(options.titles.size() <= options.what.size(),
+        fmt::format("--title: {} headlines for {} of what is shown. Leave some out.",
+                    options.titles.size(), options.what.size()));
+  for (std::size_t k = 0; k < options.titles.size(); ++k)
+    data["items"][k]["name"] = options.titles[k];
   std::string title = data["items"][0]["name"].get<std::string>();
   if (options.what.size() > 1) title += fmt::format(" and {} more", options.what.size() - 1);
   io::write_text_file(out,

@@ -13,7 +13,7 @@ struct ReportOptions {
   std::vector<std::string> what;          ///< run folders, law files, study folders
   std::string out = "";                   ///< HTML file; "" = named after the first
   std::string png = "";                   ///< screenshot of the page; "" = none
-  std::string title = "";                 ///< of the first; "" = its file name
+  std::vector<std::string> titles = {};   ///< of the first ones; without: their file names
   std::optional<int> most_frames = {};    ///< most frames per run; empty = 50
   std::optional<std::size_t> bytes = {};  ///< most bytes of the page; empty = 8 MB
 };

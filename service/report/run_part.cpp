@@ -78,29 +78,6 @@ OrderedJson describe_cells(RunRecord& run) {
   return bands;
 }
 
-OrderedJson describe_frames(const PackedRun& packed, int in_file) {
-  OrderedJson j{{"in_file", in_file},
-                {"id_columns", packed.id_column},
-                {"columns", packed.column},
-                {"units", packed.unit},
-                {"meshes", OrderedJson::array()},
-                {"still", OrderedJson::array()},
-                {"list", OrderedJson::array()}};
-  for (const PackedMesh& m : packed.mesh)
-    j["meshes"].push_back({{"nodes", m.nodes}, {"triangles", m.triangles}, {"chunk", m.chunk}});
-  for (const PackedStill& s : packed.still)
-    j["still"].push_back({{"nodes", s.nodes}, {"triangles", s.triangles}, {"chunk", s.chunk}});
-  for (const PackedFrame& f : packed.frame)
-    j["list"].push_back({{"time", f.time_s},
-                         {"number", f.number},
-                         {"mesh", f.mesh},
-                         {"still", f.still},
-                         {"spheres", f.spheres},
-                         {"cells", f.cells},
-                         {"chunk", f.chunk}});
-  return j;
-}
-
 OrderedJson describe_interface(const PackedRun& packed) {
   OrderedJson j = OrderedJson::object();
   for (const InterfaceSample& s : packed.interface) {
@@ -151,6 +128,29 @@ OrderedJson list_results(const OrderedJson& summary) {
 }
 
 }  // namespace
+
+OrderedJson describe_frames(const PackedRun& packed, int in_file) {
+  OrderedJson j{{"in_file", in_file},
+                {"id_columns", packed.id_column},
+                {"columns", packed.column},
+                {"units", packed.unit},
+                {"meshes", OrderedJson::array()},
+                {"still", OrderedJson::array()},
+                {"list", OrderedJson::array()}};
+  for (const PackedMesh& m : packed.mesh)
+    j["meshes"].push_back({{"nodes", m.nodes}, {"triangles", m.triangles}, {"chunk", m.chunk}});
+  for (const PackedStill& s : packed.still)
+    j["still"].push_back({{"nodes", s.nodes}, {"triangles", s.triangles}, {"chunk", s.chunk}});
+  for (const PackedFrame& f : packed.frame)
+    j["list"].push_back({{"time", f.time_s},
+                         {"number", f.number},
+                         {"mesh", f.mesh},
+                         {"still", f.still},
+                         {"spheres", f.spheres},
+                         {"cells", f.cells},
+                         {"chunk", f.chunk}});
+  return j;
+}
 
 OrderedJson short_number(double value) {
   if (!std::isfinite(value)) return nullptr;

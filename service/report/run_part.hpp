@@ -17,6 +17,10 @@ inline constexpr int kMostSamples = 800;
 /// @param run  read faults of its frames are added to its damage
 nlohmann::ordered_json describe_run(RunRecord& run, const FrameLimits& limits);
 
+/// Frames as the 3D view of the page reads them.
+/// @param in_file  number of frames of the run file
+nlohmann::ordered_json describe_frames(const PackedRun& packed, int in_file);
+
 /// Number rounded to six significant digits; null if it is not finite.
 nlohmann::ordered_json short_number(double value);
 

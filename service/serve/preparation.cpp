@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr int kMostConcurrent = 2;
 constexpr double kPreparationTimeLimit = 60;        ///< wall time and processor time, s
+constexpr double kPreviewTimeLimit = 30;            ///< the same for a picture of the start, s
 constexpr double kPreparationMemory = 4e9;          ///< address space, bytes
 constexpr std::size_t kMostMessageBytes = 200'000;  ///< bytes of the error messages
 constexpr auto kPreparationPoll = std::chrono::milliseconds(4);
@@ -64,12 +65,12 @@ std::string read_faults(const std::string& folder) {
   return text;
 }
 
-[[noreturn]] void fail(const runs::ChildEnd& end, const std::string& folder) {
+[[noreturn]] void fail(const runs::ChildEnd& end, const std::string& folder, double limit_s) {
   if (end.timed_out || end.signal == SIGXCPU)
     throw Error(
         fmt::format("to check this submission takes longer than {:.0f} s. Take fewer or "
-                    "smaller files.",
-                    kPreparationTimeLimit));
+                    "smaller files, or fewer cells.",
+                    limit_s));
   if (end.signal != 0)
     throw Error(
         "a file of this submission cannot be read: it is damaged, or takes more memory "
@@ -87,24 +88,44 @@ Task<RunJob> Preparation::prepare_evaluation(const std::string& text) {
   return prepare_file(kEvaluationFile, text);
 }
 
-Task<RunJob> Preparation::prepare_file(const char* name, const std::string& text) {
+Task<std::string> Preparation::check_submission(const std::string& body) {
+  return read_result("--prepare", "scene.json", kPreparationTimeLimit, body);
+}
+
+Task<std::string> Preparation::preview(const std::string& body) {
+  return read_result("--preview", kPreviewFile, kPreviewTimeLimit, body);
+}
+
+/// Work of a child process on a submission.
+struct Preparation::Work {
+  std::string folder;       ///< exists
+  const char* flag;         ///< of `acinus serve`
+  const char* name;         ///< of the file with the submission
+  const std::string& text;  ///< of that file
+  double limit_s;           ///< wall time and processor time
+};
+
+/// Waits until another child process may start.
+Task<void> Preparation::wait_for_turn() {
   asio::steady_timer timer(co_await asio::this_coro::executor);
   while (*n_running_ >= kMostConcurrent) {
     timer.expires_after(kPreparationPoll);
     co_await timer.async_wait(asio::use_awaitable);
   }
-  const Counted counted(n_running_);
-  const std::string folder = store_.run_folder(store_.make_run_folder());
-  RemoveUnlessKept guard{folder};
-  io::write_text_file(folder + "/" + name, text);
+}
+
+/// @throws Error(kBadInput) if the child failed
+Task<void> Preparation::call_child(const Work& work) {
+  asio::steady_timer timer(co_await asio::this_coro::executor);
+  io::write_text_file(work.folder + "/" + work.name, work.text);
   runs::Child child(
-      {"serve", "--prepare", folder, "--max-cells", std::to_string(options_.max_cells),
+      {"serve", work.flag, work.folder, "--max-cells", std::to_string(options_.max_cells),
        "--max-memory", fmt::format("{} MB", 1e-6 * options_.max_memory)},
-      {.output = folder + "/" + kMessageFile,
-       .limit_s = kPreparationTimeLimit,
+      {.output = work.folder + "/" + kMessageFile,
+       .limit_s = work.limit_s,
        .follows_parent = true,
        .most_memory = kPreparationMemory,
-       .most_cpu_s = kPreparationTimeLimit,
+       .most_cpu_s = work.limit_s,
        .largest_file = 4 * options_.max_body + 64e6});
   // Not the descriptor: the coroutine may go before the child does.
   while (!runs::wait_for_any({&child}, 0)) {
@@ -112,7 +133,16 @@ Task<RunJob> Preparation::prepare_file(const char* name, const std::string& text
     co_await timer.async_wait(asio::use_awaitable);
   }
   const runs::ChildEnd end = child.collect();
-  if (end.code != 0) fail(end, folder);
+  if (end.code != 0) fail(end, work.folder, work.limit_s);
+}
+
+Task<RunJob> Preparation::prepare_file(const char* name, const std::string& text) {
+  co_await wait_for_turn();
+  const Counted counted(n_running_);
+  const std::string folder = store_.run_folder(store_.make_run_folder());
+  RemoveUnlessKept guard{folder};
+  const Work work{folder, "--prepare", name, text, kPreparationTimeLimit};
+  co_await call_child(work);
   RunJob job = read_job(folder);
   job.id = fs::path(folder).filename().string();
   std::error_code ignored;
@@ -120,6 +150,17 @@ Task<RunJob> Preparation::prepare_file(const char* name, const std::string& text
   job.bytes = JobStore::size_of(folder);
   guard.keep = true;
   co_return job;
+}
+
+Task<std::string> Preparation::read_result(const char* flag, const char* file, double limit_s,
+                                           const std::string& body) {
+  co_await wait_for_turn();
+  const Counted counted(n_running_);
+  const std::string folder = store_.run_folder(store_.make_run_folder());
+  const RemoveUnlessKept guard{folder};
+  const Work work{folder, flag, kRequestFile, body, limit_s};
+  co_await call_child(work);
+  co_return io::read_text_inside(folder, file, static_cast<std::size_t>(2 * kMostPreviewBytes));
 }
 
 }  // namespace acinus::service

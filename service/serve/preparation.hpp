@@ -27,8 +27,20 @@ class Preparation {
   /// @param text  as made by evaluation_text()
   Task<RunJob> prepare_evaluation(const std::string& text);
 
+  /// Scene of a submission with every default, as JSON; nothing is kept.
+  /// @throws Error(kBadInput) as prepare()
+  Task<std::string> check_submission(const std::string& body);
+  /// Start of a submission as JSON (write_preview()); nothing is kept.
+  /// @throws Error(kBadInput) as prepare(), or if the cells cannot be placed
+  Task<std::string> preview(const std::string& body);
+
  private:
+  struct Work;
   Task<RunJob> prepare_file(const char* name, const std::string& text);
+  Task<std::string> read_result(const char* flag, const char* file, double limit_s,
+                                const std::string& body);
+  Task<void> wait_for_turn();
+  Task<void> call_child(const Work& work);
 
   const ServeOptions& options_;
   JobStore& store_;

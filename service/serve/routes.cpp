@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "io/inside.hpp"
+#include "runs/scene/schema.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 #include "runs/session/child.hpp"
 #include "runs/study/active_run.hpp"
@@ -33,11 +34,15 @@ constexpr std::array kFiles{"scene.json", "summary.json", "run.vtkhdf", "run.vtk
 constexpr double kReportLimit = 120;   ///< wall time, s
 constexpr double kReportMemory = 8e9;  ///< address space, bytes
 constexpr int kMostReports = 2;        ///< concurrent
+constexpr std::size_t kMostReportBytes = 64'000'000;
 /// Licence notice before the bundled script, which contains third-party code.
 constexpr const char* kServiceNotice = "/*! Licences: /page/licences.txt */\n";
 constexpr auto kReportPoll = std::chrono::milliseconds(50);
 
 HttpReply not_found(const std::string& message) { return error_reply(404, "NotFound", message); }
+HttpReply no_run(const std::string& id) {
+  return not_found(fmt::format("no run {}; GET /runs lists them", quoted(id)));
+}
 HttpReply wrong_method(const char* allowed) {
   HttpReply reply = error_reply(405, "MethodNotAllowed", fmt::format("allowed: {}", allowed));
   reply.headers.emplace_back("Allow", allowed);
@@ -108,6 +113,24 @@ Task<HttpReply> Routes::answer(const HttpRequest& request) {
     if (path == Path{"scenes"})
       co_return request.reads() ? json_reply(200, library_of(runs::shipped_scenes()))
                                 : wrong_method("GET");
+    if (path == Path{"schema"})
+      co_return request.reads() ? text_reply("application/json", runs::scene_schema())
+                                : wrong_method("GET");
+    if (path == Path{"check"} || path == Path{"preview"}) {
+      if (request.method != "POST") co_return wrong_method("POST");
+      std::string text;  // not a conditional expression: gcc 12 destroys its operands too early
+      if (path[0] == "check")
+        text = co_await preparation_.check_submission(request.body);
+      else
+        text = co_await preparation_.preview(request.body);
+      co_return text_reply("application/json", text);
+    }
+    if (path[0] == "compare" && path.size() == 3) {
+      for (const std::string& id : {path[1], path[2]})
+        if (!is_known(id)) co_return no_run(id);
+      if (!request.reads()) co_return wrong_method("GET");
+      co_return co_await compare(path[1], path[2]);
+    }
     if (path == Path{"events"}) {
       if (!request.reads()) co_return wrong_method("GET");
       HttpReply reply;
@@ -120,9 +143,7 @@ Task<HttpReply> Routes::answer(const HttpRequest& request) {
       co_return text_reply("application/json", list_.text() + "\n");
     }
     if (path[0] == "runs" && path.size() <= 4) {
-      // Only what has the form of an id is ever looked for.
-      if (!is_job_id(path[1]) || !dispatcher_.find(path[1]))
-        co_return not_found(fmt::format("no run {}; GET /runs lists them", quoted(path[1])));
+      if (!is_known(path[1])) co_return no_run(path[1]);
       const std::string id = path[1], what = path.size() > 2 ? path[2] : std::string();
       if (path.size() == 4 && what == "files" && request.reads()) co_return send_file(id, path[3]);
       if (path.size() == 4) co_return not_found("a run has no such part");
@@ -142,6 +163,8 @@ HttpReply Routes::answer_page(const HttpRequest& request) {
   if (path == Path{"login"}) return page(kLoginPage, kLoginPolicy);
   if (path == Path{"page", "service.js"})
     return text_reply("text/javascript", std::string(kServiceNotice) + std::string(kServiceScript));
+  if (path == Path{"page", "preview.js"})
+    return text_reply("text/javascript", std::string(kServiceNotice) + std::string(kPreviewScript));
   if (path == Path{"page", "licences.txt"})
     return text_reply("text/plain; charset=utf-8", kPageLicences);
   if (path == Path{"page", "service.css"}) return text_reply("text/css", kServiceStyle);
@@ -215,7 +238,47 @@ HttpReply Routes::send_file(const std::string& id, const std::string& name) {
   return reply;
 }
 
-/// Makes the report in a child process, since that takes time and may crash.
+std::string Routes::title_of(const std::string& id) {
+  const RunJob* job = dispatcher_.find(id);
+  return job != nullptr ? job->name : id;
+}
+
+/// Makes a report in a child process, since that takes time and may crash.
+/// @param key    of this report among those that are being made
+/// @param fresh  the new page
+/// @return cause of a failure; empty if the page was made
+Task<std::string> Routes::make_report(std::string key, std::vector<std::string> folders,
+                                      std::vector<std::string> titles, std::string fresh) {
+  asio::steady_timer timer(co_await asio::this_coro::executor);
+  making_->insert(key);
+  const struct Done {
+    std::shared_ptr<std::set<std::string>> making;
+    std::string key;
+    ~Done() { making->erase(key); }
+  } done{making_, key};
+  const std::string words = fresh + ".txt";
+  std::error_code ignored;
+  fs::remove(words, ignored);
+  std::vector<std::string> call{"report"};
+  call.insert(call.end(), folders.begin(), folders.end());
+  call.insert(call.end(), {"--out", fresh});
+  for (const std::string& title : titles) call.push_back("--title=" + title);
+  runs::Child child(call, {.output = words,
+                           .limit_s = kReportLimit,
+                           .follows_parent = true,
+                           .most_memory = kReportMemory});
+  // Not the descriptor: the coroutine may go before the child does.
+  while (!runs::wait_for_any({&child}, 0)) {
+    timer.expires_after(kReportPoll);
+    co_await timer.async_wait(asio::use_awaitable);
+  }
+  const runs::ChildEnd end = child.collect();
+  std::string cause;
+  if (end.code != 0) cause = "no report could be made: " + runs::printed_cause(words);
+  fs::remove(words, ignored);
+  co_return cause;
+}
+
 Task<HttpReply> Routes::report(std::string id) {
   const std::string folder = store_.run_folder(id), file = folder + "/report.html";
   asio::steady_timer timer(co_await asio::this_coro::executor);
@@ -224,33 +287,12 @@ Task<HttpReply> Routes::report(std::string id) {
     co_await timer.async_wait(asio::use_awaitable);
   }
   if (time_of(file) < time_of(folder + "/run.vtkhdf") || time_of(file) == time_of("")) {
-    making_->insert(id);
-    const struct Done {
-      std::shared_ptr<std::set<std::string>> making;
-      std::string id;
-      ~Done() { making->erase(id); }
-    } done{making_, id};
-    const std::string words = folder + "/report.txt", fresh = folder + "/report.new.html";
+    const std::string fresh = folder + "/report.new.html";
+    const std::vector<std::string> folders{folder}, titles{title_of(id)};
+    const std::string cause = co_await make_report(id, folders, titles, fresh);
+    if (!cause.empty()) co_return error_reply(503, "FileError", cause);
     std::error_code ignored;
-    fs::remove(words, ignored);
-    const RunJob* job = dispatcher_.find(id);
-    const std::string title = job != nullptr ? job->name : id;
-    runs::Child child({"report", folder, "--out", fresh, "--title=" + title},
-                      {.output = words,
-                       .limit_s = kReportLimit,
-                       .follows_parent = true,
-                       .most_memory = kReportMemory});
-    // Not the descriptor: the coroutine may go before the child does.
-    while (!runs::wait_for_any({&child}, 0)) {
-      timer.expires_after(kReportPoll);
-      co_await timer.async_wait(asio::use_awaitable);
-    }
-    const runs::ChildEnd end = child.collect();
-    if (end.code != 0)
-      co_return error_reply(503, "FileError",
-                            fmt::format("no report could be made: {}", runs::printed_cause(words)));
     fs::rename(fresh, file, ignored);
-    fs::remove(words, ignored);
     dispatcher_.measure(id);
   }
   HttpReply reply;
@@ -258,6 +300,35 @@ Task<HttpReply> Routes::report(std::string id) {
   reply.file = "report.html";
   reply.type = "text/html; charset=utf-8";
   reply.headers.emplace_back("Content-Security-Policy", kReportPolicy);
+  co_return reply;
+}
+
+/// Report of two runs with their comparison. It is not kept: pairs of runs are many.
+Task<HttpReply> Routes::compare(std::string a, std::string b) {
+  if (a == b) co_return error_reply(400, "InvalidInput", "two different runs are compared");
+  for (const std::string& id : {a, b}) {
+    const JobState state = dispatcher_.find(id)->state;
+    if (state == JobState::kWaiting || state == JobState::kRunning)
+      co_return error_reply(400, "InvalidInput",
+                            fmt::format("run {} has not ended; it is compared when it has", id));
+  }
+  const std::string key = a + "+" + b;
+  asio::steady_timer timer(co_await asio::this_coro::executor);
+  while (making_->contains(key) || static_cast<int>(making_->size()) >= kMostReports) {
+    timer.expires_after(kReportPoll);
+    co_await timer.async_wait(asio::use_awaitable);
+  }
+  const std::string folder = store_.run_folder(a), name = "comparison-" + b + ".html";
+  const std::string fresh = folder + "/" + name;
+  const std::vector<std::string> folders{store_.run_folder(a), store_.run_folder(b)};
+  const std::vector<std::string> titles{title_of(a), title_of(b)};
+  const std::string cause = co_await make_report(key, folders, titles, fresh);
+  if (!cause.empty()) co_return error_reply(503, "FileError", cause);
+  HttpReply reply =
+      text_reply("text/html; charset=utf-8", io::read_text_inside(folder, name, kMostReportBytes));
+  reply.headers.emplace_back("Content-Security-Policy", kReportPolicy);
+  std::error_code ignored;
+  fs::remove(fresh, ignored);
   co_return reply;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "service/serve/access.hpp"
 #include "service/serve/async.hpp"
@@ -30,11 +31,17 @@ class Routes {
   Task<HttpReply> answer(const HttpRequest& request);
 
  private:
+  /// True for the id of a run; only what has the form of one is ever looked for.
+  bool is_known(const std::string& id) { return is_job_id(id) && dispatcher_.find(id) != nullptr; }
   HttpReply answer_page(const HttpRequest& request);
   Task<HttpReply> submit(const HttpRequest& request);
   Task<HttpReply> answer_run(const HttpRequest& request, const std::string& id,
                              const std::string& what);
   Task<HttpReply> report(std::string id);
+  Task<HttpReply> compare(std::string a, std::string b);
+  Task<std::string> make_report(std::string key, std::vector<std::string> folders,
+                                std::vector<std::string> titles, std::string fresh);
+  std::string title_of(const std::string& id);
   HttpReply series(const RunJob& job);
   HttpReply list_files(const std::string& id);
   HttpReply send_file(const std::string& id, const std::string& name);
@@ -47,8 +54,8 @@ class Routes {
   JobList list_;
   Preparation preparation_;
   UmBridge um_bridge_;
-  /// Runs whose report is being made. Shared with the coroutines, which outlive this object: they
-  /// are destroyed with the event loop.
+  /// Runs and pairs of runs whose report is being made. Shared with the coroutines, which outlive
+  /// this object: they are destroyed with the event loop.
   std::shared_ptr<std::set<std::string>> making_ = std::make_shared<std::set<std::string>>();
 };
 

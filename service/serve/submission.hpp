@@ -23,6 +23,16 @@ inline constexpr const char* kEvaluationFile = "evaluation.json";
 /// lead out of the folder
 void prepare_submission(const std::string& folder, const ServeOptions& options);
 
+/// Name of the file that write_preview() writes.
+inline constexpr const char* kPreviewFile = "preview.json";
+
+/// Prepares the submission in a folder like prepare_submission(), places its cells without a
+/// start-up and writes kPreviewFile: scene (resolved), cells, end_s, vessel_length_um, notes,
+/// warnings, and frames and walls as on report pages. Called in a child process.
+/// @throws Error(kBadInput) listing all faults, or if the picture is larger than kMostPreviewBytes
+void write_preview(const std::string& folder, const ServeOptions& options);
+inline constexpr double kMostPreviewBytes = 16e6;
+
 /// Refuses a change of a scene, PATH=VALUE, that names a file.
 /// @throws Error(kBadInput)
 void check_names_no_file(const std::string& assignment);

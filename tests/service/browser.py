@@ -88,14 +88,14 @@ def wait_for(browser, condition, seconds=30):
         time.sleep(0.05)
 
 
-def check_silence(browser, page, allowed=("file://", "data:", "blob:")):
-    """No error was reported and no request went anywhere but where it may."""
+def check_silence(browser, page, allowed=("file://", "data:", "blob:"), refused=()):
+    """No error was reported and no request went anywhere but where it may. refused: ends of addresses that may answer 400"""
     wrong = []
     for e in browser.events:
         p = e.get("params", {})
         if e.get("method") == "Runtime.exceptionThrown":
             wrong.append(p["exceptionDetails"].get("exception", {}).get("description", str(p)))
-        if e.get("method") == "Log.entryAdded" and p["entry"]["level"] == "error":
+        if e.get("method") == "Log.entryAdded" and p["entry"]["level"] == "error" and not ("status of 400" in p["entry"]["text"] and p["entry"].get("url", "-").endswith(tuple(refused))):
             wrong.append(p["entry"]["text"])
         if e.get("method") == "Runtime.consoleAPICalled" and p["type"] == "error":
             wrong.append(str(p["args"]))

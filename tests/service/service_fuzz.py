@@ -26,6 +26,8 @@ def seeds(service, run):
     """Whole requests, as bytes."""
     bodies = [("POST", "/runs", {"scene": "two_cells", "set": {"time.end": "1 s"}}), ("POST", "/runs", {"scene": SCENE, "files": {"wall.obj": in_base64(b"v 0 0 0\n" * 40)}}),
               ("POST", "/runs", {"scene": "vessel_file", "set": {"vessels.file": "capillaries.vtk", "time.end": "1 s"}}),
+              ("POST", "/check", {"scene": "two_cells", "set": {"time.end": "1 s"}}), ("POST", "/preview", {"scene": SCENE, "files": {"wall.obj": in_base64(b"v 0 0 0\n" * 40)}}),
+              ("GET", f"/compare/{run}/{run}", None), ("GET", "/schema", None),
               ("POST", "/Evaluate", {"name": "example/cells", "input": [[24.0]], "config": {"at": ["1 h"], "seed": 1, "set": {"time.end": "1 h"}}}),
               ("POST", "/ModelInfo", {"name": "example/cells"}), ("POST", "/InputSizes", {"name": "example/cells", "config": {}}), ("POST", "/login", {"token": "0" * 32}),
               ("POST", f"/runs/{run}/stop", None), ("POST", f"/runs/{run}/resume", None), ("GET", f"/runs/{run}", None), ("GET", f"/runs/{run}/files/summary.json", None),

@@ -1,13 +1,38 @@
 // The page of the service: what runs, a form for more, and the chosen run.
 import { RunPanel } from "./service_run.js";
-import { fillForm, showForm } from "./service_form.js";
+import { showComparison } from "./service_compare.js";
+import { changesOf, fillForm, readForm, setChanges, showForm } from "./service_form.js";
+import { ParametersPanel } from "./service_parameters.js";
+import { PreviewPanel } from "./service_preview.js";
 import { bytes, duration, make } from "./text.js";
 
-const panel = new RunPanel(document.getElementById("run"), (id) => fillForm(document.getElementById("new"), id));
+const form = document.getElementById("new");
+const panel = new RunPanel(document.getElementById("run"), (id) => fillForm(form, id));
 const list = document.getElementById("runs");
 let listed = [];
 
 const chosen = () => location.hash.slice(1);
+const articles = Object.fromEntries(["run", "parameters", "preview", "compare"].map((id) => [id, document.getElementById(id)]));
+const preview = new PreviewPanel(articles.preview, () => readForm(form));
+const parameters = new ParametersPanel(articles.parameters, { read: () => readForm(form), changes: () => changesOf(form), setChanges: (set) => setChanges(form, set) },
+  { preview: () => go("preview"), start: () => form.requestSubmit() });
+
+// Shows a page again even if it is shown already.
+function go(where) {
+  if (chosen() === where) showPage();
+  else location.hash = where;
+}
+
+// The article that the address names; a run's by default.
+function showPage() {
+  const [page, ...ids] = chosen().split("/"), named = articles[page] && page !== "run" ? page : "run";
+  for (const [id, article] of Object.entries(articles)) article.hidden = id !== named;
+  if (named === "parameters") parameters.open();
+  if (named === "preview") preview.show();
+  if (named === "compare" && ids.length === 2) showComparison(articles.compare, ids, (id) => listed.find((run) => run.id === id)?.name ?? id);
+  // On a phone the article stands below the list.
+  if ((named !== "run" || panel.run) && articles[named].offsetLeft < 100) articles[named].scrollIntoView({ behavior: "smooth" });
+}
 
 function progress(run) {
   const cells = run.cells.dcm + run.cells.cbm;
@@ -30,7 +55,7 @@ function show() {
   list.replaceChildren(...listed.map(entry));
   if (listed.length === 0) list.append(make("li", { class: "hint" }, "None yet."));
   if (focused) list.querySelector(`a[href="${focused}"]`)?.focus();
-  panel.show(listed.find((run) => run.id === chosen()) ?? null);
+  panel.show(listed.find((run) => run.id === chosen()) ?? null, listed);
 }
 
 function watch() {
@@ -49,8 +74,8 @@ function watch() {
 
 addEventListener("hashchange", () => {
   show();
-  // On a phone the run stands below the list.
-  if (panel.run && panel.element.offsetLeft < 100) panel.element.scrollIntoView({ behavior: "smooth" });
+  showPage();
 });
-showForm(document.getElementById("new"), (id) => { location.hash = id; });
+showForm(form, { started: (id) => { location.hash = id; }, preview: () => go("preview"), parameters: () => go("parameters"), sceneChanged: () => { if (chosen() === "parameters") parameters.open(); } })
+  .then(() => { if (chosen()) showPage(); });
 watch();

@@ -15,6 +15,18 @@ function readChanges(text) {
   return set;
 }
 
+export const changesOf = (form) => readChanges(form.querySelector("#set").value);
+
+// A text that reads as another value of JSON ("7", "true") keeps its quotes.
+function written(value) {
+  if (typeof value !== "string") return JSON.stringify(value);
+  try { JSON.parse(value); return JSON.stringify(value); } catch { return value; }
+}
+
+export function setChanges(form, set) {
+  form.querySelector("#set").value = Object.entries(set).map(([key, value]) => `${key} = ${written(value)}`).join("\n");
+}
+
 async function inBase64(file) {
   const url = await new Promise((done, failed) => {
     const reader = new FileReader();
@@ -28,7 +40,7 @@ async function inBase64(file) {
 // Scenes may hold comments, which JSON of browsers may not.
 const withoutComments = (text) => text.replace(/("(?:\\.|[^"\\])*")|\/\/[^\n]*|\/\*[\s\S]*?\*\//g, (_, string) => string ?? "");
 
-async function readForm(form) {
+export async function readForm(form) {
   const value = (id) => form.querySelector("#" + id).value;
   const asked = { set: readChanges(value("set")) };
   if (value("name").trim()) asked.name = value("name").trim();
@@ -55,15 +67,20 @@ export async function fillForm(form, id) {
   form.querySelector("#set").focus();
 }
 
-export function showForm(form, onStarted) {
+// Fills the list of scenes. started(id), preview(), parameters(), sceneChanged(): answers to what is done in the form
+export function showForm(form, { started, preview, parameters, sceneChanged }) {
   const scene = form.querySelector("#scene"), fault = form.querySelector("#fault"), button = form.querySelector("button");
   const about = new Map([[OWN, "A scene file of yours. It may extend a shipped scene."]]);
   const shown = () => {
     form.querySelector("#about").textContent = about.get(scene.value) ?? "";
     for (const element of form.querySelectorAll(".own")) element.hidden = scene.value !== OWN;
   };
-  scene.addEventListener("change", shown);
-  fetch("/scenes").then((answer) => answer.json()).then((scenes) => {
+  scene.addEventListener("change", () => { shown(); sceneChanged(); });
+  form.querySelector("#own").addEventListener("change", sceneChanged);
+  form.querySelector("#set").addEventListener("change", sceneChanged);
+  form.querySelector("#ask-preview").addEventListener("click", preview);
+  form.querySelector("#ask-parameters").addEventListener("click", parameters);
+  const filled = fetch("/scenes").then((answer) => answer.json()).then((scenes) => {
     for (const s of scenes) about.set(s.name, s.description);
     scene.replaceChildren(...[...scenes.map((s) => s.name), OWN].map((name) => make("option", { value: name }, name)));
     scene.value = scenes.some((s) => s.name === "lobule_hybrid") ? "lobule_hybrid" : scene.value;
@@ -77,11 +94,12 @@ export function showForm(form, onStarted) {
       const answer = await fetch("/runs", { method: "POST", body: JSON.stringify(await readForm(form)) });
       const said = await answer.json();
       if (!answer.ok) throw new Error(said.error.message);
-      onStarted(said.id);
+      started(said.id);
     } catch (error) {
       fault.textContent = error.message;
       fault.hidden = false;
     }
     button.disabled = false;
   });
+  return filled;
 }

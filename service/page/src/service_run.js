@@ -4,6 +4,7 @@ import { plot } from "./plots.js";
 import { bytes, cellCounts, duration, make } from "./text.js";
 
 const FIRST = ["lesion_area_relative", "lesion_area_flooded", "lesion_area", "cells", "radius_of_gyration_um", "mean_pressure_Pa", "contact_pressure_mean_dcm_Pa"];
+const ENDED = ["completed", "stopped", "failed"];
 const PLOTS = 2;
 const REFRESH = 3000; // ms between updates of a run in progress
 
@@ -16,11 +17,15 @@ export class RunPanel {
     setInterval(() => { if (this.run?.state === "running") this.drawSeries(); }, REFRESH);
   }
 
-  show(run) {
+  // all: the runs of the list
+  show(run, all) {
+    this.others = all.filter((r) => r.id !== run?.id && ENDED.includes(r.state));
     const other = run?.id !== this.run?.id, news = JSON.stringify(run) !== JSON.stringify(this.run), ended = run?.state !== this.run?.state;
     this.run = run;
     if (other) this.build();
-    if (run && (other || news)) this.tell();
+    const named = this.others.map((r) => r.id + r.name).join();
+    if (run && (other || news || named !== this.named)) this.tell();
+    this.named = named;
     if (run && (other || ended)) { this.drawSeries(); this.listFiles(); }
   }
 
@@ -61,8 +66,16 @@ export class RunPanel {
     if (state === "stopped") all.push(button("Resume", () => this.ask("POST", "/resume")));
     if (state !== "waiting") all.push(button("Show in 3D", () => this.showReport()), make("a", { href: `/runs/${id}/report`, target: "_blank", rel: "noopener" }, "Open report"));
     if (this.run.scene) all.push(button("Clone", () => this.clone(id)));
+    if (ENDED.includes(state) && this.others.length > 0) all.push(this.comparison());
     if (state !== "running") all.push(button("Delete", () => { if (confirm(`Delete ${this.run.name} and all its files?`)) this.ask("DELETE", ""); }));
     return all;
+  }
+
+  // A choice of another run to compare with; it is kept while the actions are renewed.
+  comparison() {
+    const other = make("select", { "aria-label": "Run to compare with", onchange: () => { this.other = other.value; } },
+      ...this.others.map((r) => make("option", { value: r.id, selected: r.id === this.other }, r.name)));
+    return make("span", { class: "with" }, make("button", { type: "button", onclick: () => { location.hash = `compare/${this.run.id}/${other.value}`; } }, "Compare with"), other);
   }
 
   async ask(method, what) {
