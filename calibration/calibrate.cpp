@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "calibration/reliability.hpp"
 #include "calibration/wall.hpp"
+#include "contact/jkr.hpp"
 #include "core/error.hpp"
 
 namespace acinus::calibration {
@@ -24,6 +26,10 @@ bool is_worth_fitting(const ForceCurve& curve, const Runs& runs) {
   runs.say(fmt::format("the compression ended early, at d = {:.3f}: the law is fitted up to there",
                        reached));
   return true;
+}
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 /// Overlap d of the central cell in the relaxed, unloaded clump: at the smallest contact pressure
@@ -113,6 +119,25 @@ int find_friction_share(const Clump& clump, const Runs& runs, Calibration& found
   return slide_layers(runs, ClumpModel::kCorrectedSpheres, law, found.slid_corrected);
 }
 
+/// Compares the forces at which pairs of both models part, which the law does not know. That of
+/// spheres does not depend on their modulus.
+/// @return exit code of a run that was stopped, else 0
+int compare_pull_off(const Clump& clump, const Runs& runs, Calibration& found) {
+  if (!(clump.sphere.adhesion > 0)) return 0;
+  const PullRun pulled = runs.pull_pairs();
+  if (pulled.exit == kCannotContinue) {
+    runs.say("two cells could not be pulled apart: no comparison of pull-off");
+    return 0;
+  }
+  if (pulled.exit != 0 || pulled.force.empty()) return pulled.exit;
+  found.pull_off_dcm = pulled.force;
+  const contact::SphereBody body{clump.radius, clump.sphere.young, clump.sphere.poisson};
+  const contact::SpherePair pair = contact::reduced_pair(body, body, clump.sphere.adhesion);
+  found.pull_off_cbm = -contact::jkr_special(pair).pull_off.force;
+  found.law.pull_off_ratio = mean_of(pulled.force) / found.pull_off_cbm;
+  return 0;
+}
+
 void relax(const Options& options, const Runs& runs, Calibration& found) {
   const coupling::World world = runs.compressed_world();
   found.friction_before = world.params.dcm_contact.cell_friction;
@@ -174,6 +199,9 @@ Calibration calibrate(const Clump& clump, const Options& options, const Runs& ru
   if (found.exit != 0) return found;
   runs.say("sliding layers of both");
   found.exit = find_friction_share(clump, runs, found);
+  if (found.exit != 0) return found;
+  runs.say("pulling pairs apart");
+  found.exit = compare_pull_off(clump, runs, found);
   if (found.exit != 0) return found;
   found.error_plain = relative_error(found.dcm, found.plain, options.fit.highest);
   found.error_corrected = relative_error(found.dcm, found.corrected, options.fit.highest);

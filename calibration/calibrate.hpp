@@ -48,12 +48,20 @@ struct SlidingRun {
   Slide slide;
 };
 
+/// Pairs of deformable cells that adhere and are pulled apart.
+struct PullRun {
+  int exit = 0;               ///< exit code of a run that was stopped or failed, else 0
+  std::vector<double> force;  ///< nN, at which each pair parts
+};
+
 /// Simulations of a calibration. The caller keeps their folders, stops and resumes them.
 struct Runs {
   /// Compresses the clump. @param law  of corrected spheres; other models ignore it
   std::function<CompressionRun(ClumpModel model, const Law& law)> compress;
   /// Lets two deformable cells that touch come to rest. Their CompressionRun has no central cell.
   std::function<CompressionRun()> join_pair;
+  /// Pulls pairs of deformable cells apart, each with other orientations of the meshes.
+  std::function<PullRun()> pull_pairs;
   /// Slides two layers of cells past each other, as deformable cells or as spheres with the law.
   std::function<SlidingRun(ClumpModel model, const Law& law)> slide;
   /// Deformable cells at the end of their compression.
@@ -73,6 +81,8 @@ struct Calibration {
   double contacts_first = 0, contacts_last = 0;  ///< of the central deformable cell
   double overlap_at_rest = 0;                    ///< its d without load
   double pair_overlap = 0;                       ///< Compression::pair_overlap
+  std::vector<double> pull_off_dcm;              ///< nN, PullRun::force; empty: not pulled
+  double pull_off_cbm = 0;                       ///< nN, of two spheres
   /// Layers of deformable cells, of spheres with the same friction per area, and of spheres with
   /// the law's; empty: not slid.
   Slide slid_dcm, slid_plain, slid_corrected;
@@ -84,7 +94,7 @@ struct Calibration {
 
 /// Calibrates the law: compresses the clump as deformable cells and as spheres, lets two of the
 /// cells adhere, fits, compresses the corrected spheres until their capsule is as wide, slides
-/// layers of both models, lets the deformable clump relax.
+/// layers of both models, pulls pairs apart, lets the deformable clump relax.
 /// @throws Error(kCannotContinue) where the compression gives too little data or no law fits
 Calibration calibrate(const Clump& clump, const Options& options, const Runs& runs);
 

@@ -87,6 +87,11 @@ std::string calibration_table(const Calibration& c) {
                          "where those slide {:.2f} um",
                          c.law.friction_share, steady_slide(c.slid_corrected),
                          steady_slide(c.slid_dcm)));
+  if (c.law.pull_off_ratio > 0)
+    t += row("pull-off of two cells, out of sample",
+             fmt::format("{:.2f} nN, of two spheres {:.2f} nN: {:.0f} % too little",
+                         c.law.pull_off_ratio * c.pull_off_cbm, c.pull_off_cbm,
+                         100 * (1 - 1 / c.law.pull_off_ratio)));
   t += row("fit for other scenes", c.law.warnings.empty() ? "yes" : "no, see the warnings");
   t += row(
       "at walls they leave out",
@@ -129,6 +134,11 @@ void write_curves(const Calibration& c, const std::string& folder) {
     j["slid_dcm"] = json_of(c.slid_dcm);
     j["slid_cbm_equal_friction"] = json_of(c.slid_plain);
     j["slid_cbm_corrected"] = json_of(c.slid_corrected);
+  }
+  if (c.law.pull_off_ratio > 0) {
+    j["pull_off_ratio"] = c.law.pull_off_ratio;
+    j["pull_off_dcm_nN"] = c.pull_off_dcm;
+    j["pull_off_cbm_nN"] = c.pull_off_cbm;
   }
   j["forms"] = Json::array();
   for (const FitAttempt& a : c.attempts)

@@ -30,6 +30,9 @@ struct Law {
   /// Friction per area of contact between spheres, over that between deformable cells, with which
   /// layers of both slide alike (sliding.hpp). 0: not measured.
   double friction_share = 0;
+  /// Force at which two deformable cells part, over that of two spheres; no part of the law, which
+  /// knows compression only. 0: not measured.
+  double pull_off_ratio = 0;
   double r_squared = 0;
   double rms_relative = 0;  ///< of the force, over the range
   double jkr_underestimation =

@@ -34,6 +34,8 @@ Json numbers_of(const Law& law) {
   j["overlap_range"] = law.overlap_range;
   j["wall_recess"] = law.wall_recess;
   j["friction_share"] = law.friction_share;
+  // Younger than the schema: files of older versions do without.
+  if (law.pull_off_ratio > 0) j["pull_off_ratio"] = law.pull_off_ratio;
   j["r_squared"] = law.r_squared;
   j["rms_relative"] = law.rms_relative;
   j["jkr_underestimation"] = law.jkr_underestimation;
@@ -179,6 +181,7 @@ Law read_law(const std::string& path) {
         path + "/overlap_range: the table ends elsewhere");
   law.wall_recess = r.number("wall_recess", 0, cbm::kLargestRecess);
   law.friction_share = r.number("friction_share", 0, kLargestFrictionShare);
+  if (j.contains("pull_off_ratio")) law.pull_off_ratio = r.number("pull_off_ratio", 1e-12);
   law.r_squared = r.number("r_squared", -Reader::kAny, 1);
   law.rms_relative = r.number("rms_relative", 0);
   law.jkr_underestimation = r.number("jkr_underestimation", 0);

@@ -17,6 +17,7 @@
 #include "runs/assemble/law_parameters.hpp"
 #include "runs/assemble/read_cells.hpp"
 #include "runs/assemble/state_file.hpp"
+#include "runs/experiments/pull_off_experiment.hpp"
 #include "runs/session/read_summary.hpp"
 #include "runs/session/stage.hpp"
 
@@ -104,6 +105,7 @@ class Folders {
     return {.compress = [this](ClumpModel model,
                                const calibration::Law& law) { return compress(model, law); },
             .join_pair = [this] { return join_pair(); },
+            .pull_pairs = [this] { return pull_pairs(); },
             .slide = [this](ClumpModel model,
                             const calibration::Law& law) { return slide(model, law); },
             .compressed_world = [this] { return compressed_world(); },
@@ -163,6 +165,20 @@ class Folders {
     return out;
   }
 
+  calibration::PullRun pull_pairs() const {
+    calibration::PullRun out;
+    for (int k = 0; k < kPulledPairs; ++k) {
+      const std::string folder = path(fmt::format("pull_off_{}", k + 1).c_str());
+      out.exit =
+          run_stage(pull_scene(compression_, compression_.seed + static_cast<std::uint64_t>(k)),
+                    {folder, options_.threads, true, options_.fresh, options_.command_line});
+      if (out.exit != 0) return out;
+      if (const std::optional<double> force = pull_off_force(read_summary(folder).measures))
+        out.force.push_back(*force);
+    }
+    return out;
+  }
+
   calibration::SlidingRun slide(ClumpModel model, const calibration::Law& law) const {
     Scene scene = sliding_scene(compression_);
     const bool deformable = model == ClumpModel::kDeformable;
@@ -193,6 +209,7 @@ class Folders {
 
   static constexpr const char* kDeformable = "compression_dcm";
   static constexpr const char* kPair = "pair_dcm";
+  static constexpr int kPulledPairs = 3;  ///< the force differs by a third with the orientation
   const Scene& compression_;
   const CalibrateOptions& options_;
   std::string folder_;

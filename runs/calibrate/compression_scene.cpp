@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "runs/assemble/place_cells.hpp"
 #include "runs/experiments/capsule_experiment.hpp"
+#include "runs/experiments/pull_off_experiment.hpp"
 #include "runs/scene/writer.hpp"
 
 namespace acinus::runs {
@@ -121,6 +122,32 @@ Scene pair_scene(const Scene& compression) {
   }
   s.time.end = kTimeToRest;
   s.output.every = kTimeToRest;
+  set_canonical(s);
+  return s;
+}
+
+Scene pull_scene(const Scene& compression, std::uint64_t seed) {
+  constexpr double kAdhere = 150, kEnd = 2000, kEvery = 10, kStep = 2;  // s
+  constexpr double kMostForce = 6;                                      // in pi W R^
+  Scene s = pair_scene(compression);
+  s.experiment = Experiment::kPullOff;
+  s.seed = seed;
+  s.friction.liquid = true;
+  s.friction.viscosity = FrictionBlock{}.viscosity;
+  s.contact.cell_friction = 0;
+  s.numerics.adaptive = false;
+  s.numerics.extrapolate = false;
+  s.numerics.max_step = kStep;
+  s.time.end = kEnd;
+  s.output.every = kEvery;
+  for (CellEntry& cell : s.cells.list) cell.random_orientation = true;
+  for (const int cell : {0, 1}) {
+    PullEntry pull;
+    pull.cell = cell;
+    pull.direction = Vec3(cell == 0 ? -1 : 1, 0, 0);
+    pull.force.entry = {{kAdhere, 0}, {kEnd, kMostForce * vesicle_pull_off(pair_of(s))}};
+    s.pulls.push_back(pull);
+  }
   set_canonical(s);
   return s;
 }

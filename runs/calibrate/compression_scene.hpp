@@ -1,6 +1,7 @@
 #pragma once
 /// Compression of a clump of cells, the scene of a calibration.
 
+#include <cstdint>
 #include <string>
 
 #include "runs/scene/scene.hpp"
@@ -26,6 +27,11 @@ Scene compression_scene(const Scene& scene, const ClumpOptions& options);
 
 /// Scene of two of its cells that touch and adhere, for as long as they take to come to rest.
 Scene pair_scene(const Scene& compression);
+
+/// Scene of two of its cells in a liquid that adhere and are then pulled apart by a force that
+/// rises slowly to six times that of vesicles, pi W R^.   @param seed  of the orientations of both
+/// meshes
+Scene pull_scene(const Scene& compression, std::uint64_t seed);
 
 /// Scene of two layers of twelve of its cells between mirror walls, pulled past each other with a
 /// shear stress of some 2 Pa, that of the pull of a cell that leads others.

@@ -74,6 +74,20 @@ TEST_F(LawFile, IsReadAsItWasWritten) {
   EXPECT_EQ(stiffness_law(make_law()).term[0].factor, make_law().a1);
 }
 
+TEST_F(LawFile, HoldsThePullOffIfItWasMeasured) {
+  Law law = make_law();
+  write_law(law, path());
+  EXPECT_FALSE(test::contains(law_text(law), "pull_off_ratio"));
+  EXPECT_EQ(read_law(path()).pull_off_ratio, 0);
+  law.pull_off_ratio = 1.625;
+  write_law(law, path());
+  EXPECT_EQ(read_law(path()).pull_off_ratio, 1.625);
+  std::string text = law_text(law);
+  text.replace(text.find("1.625"), 5, "1.875");
+  io::write_text_file(path(), text);
+  EXPECT_CONTAINS(test::message_of([&] { read_law(path()); }), "changed by hand");
+}
+
 TEST_F(LawFile, BadOnesAreRefusedWithTheReason) {
   const auto expect = [&](const char* from, const char* to, const char* reason) {
     const std::string m = message(from, to);

@@ -1,6 +1,8 @@
 /// `acinus calibrate` and `acinus compare` as a user calls them, on a small coarse clump that is
 /// compressed fast, and scenes that name what came out.
 
+#include <numbers>
+
 #include "tests/runs/program.hpp"
 
 namespace acinus::runs {
@@ -98,12 +100,23 @@ TEST_F(Calibrate, WritesALawThatScenesUseAndRunsThatCompare) {
 TEST_F(Calibrate, LetsTwoCellsComeToRestIfTheyAdhere) {
   ASSERT_EQ(calibrate({"--no-relaxation"}).code, 0);
   EXPECT_FALSE(fs::exists(path("law.calibration/pair_dcm"))) << "without adhesion";
+  EXPECT_FALSE(json("law.json").contains("pull_off_ratio")) << "without adhesion";
   replace("clump.json", "0 J/m^2", "1e-5 J/m^2");
   const Outcome first = calibrate({"--no-relaxation", "--fresh"});
   ASSERT_EQ(first.code, 0) << first.text;
   EXPECT_CONTAINS(first.text, "overlap of two cells by themselves");
   const Json pair = json("law.calibration/pair_dcm/summary.json");
   EXPECT_EQ(pair["cells"]["dcm"], 2);
+  EXPECT_CONTAINS(first.text, "pull-off of two cells, out of sample");
+  const double ratio = json("law.json")["pull_off_ratio"];
+  const Json curves = json("law.calibration/curves.json");
+  EXPECT_NEAR(curves["pull_off_cbm_nN"].get<double>(), 1.5 * std::numbers::pi * 0.01 * 6, 1e-9)
+      << "JKR";
+  double mean = 0;
+  for (const Json& force : curves["pull_off_dcm_nN"]) mean += force.get<double>() / 3;
+  EXPECT_NEAR(ratio, mean / curves["pull_off_cbm_nN"].get<double>(), 1e-9);
+  EXPECT_GT(ratio, 1) << "surfaces that flatten hold more than spheres";
+  EXPECT_LT(ratio, 4);
   const Json slid = json("law.calibration/sliding_dcm/summary.json");
   ASSERT_EQ(calibrate({"--no-relaxation"}).code, 0);
   EXPECT_EQ(json("law.calibration/pair_dcm/summary.json"), pair) << "nothing runs twice";
