@@ -45,7 +45,7 @@ std::vector<Vec3> cut_ball(const State& s, const StartBall& ball,
   }
   const dcm::AvailableVolume available(
       ball.center, [&](const Vec3& d) { return dcm::reach_to_faces(d, radius, face); });
-  return available.fill(t, direction, radius);
+  return available.fill(t, direction, {radius});
 }
 
 }  // namespace

@@ -13,6 +13,9 @@ constexpr double kSettleReach = 0.5;
 /// Longest settling time of new cells, s: long enough for stiff modes to relax, negligible against
 /// the flow of tissue. No longer than a step of the whole world.
 constexpr double kLongest = 60;
+constexpr int kNewtonSteps = 3;
+/// Error of a step that is not controlled, um: more than any new mesh moves.
+constexpr double kAnyError = 10;
 
 double pressure_of(const World& world, std::size_t lane, const std::vector<Vec3>& node) {
   const State& s = world.state;
@@ -22,16 +25,28 @@ double pressure_of(const World& world, std::size_t lane, const std::vector<Vec3>
                                s.dcm.volume[lane].at(s.clock.time));
 }
 
+/// Makes the steps of a subworld equal and uncontrolled.   @param step  s
+void set_newton_steps(double step, Subworld& sub) {
+  Numerics& n = sub.world.params.numerics;
+  n.max_step = step;
+  n.tolerance = kAnyError;
+  n.extrapolate = false;
+  sub.world.state.clock.step = step;
+}
+
 }  // namespace
 
-Settled settle_cells(World& world, const std::vector<std::int64_t>& cells) {
+Settled settle_cells(World& world, const std::vector<std::int64_t>& cells, double newton_step) {
   const State& s = world.state;
   CellSet fresh;
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
     if (std::ranges::find(cells, s.dcm.lineage[l]) != cells.end()) fresh.dcm.push_back(l);
   Subworld sub;
   extract_at_rest(world, fresh, find_neighbours(world, fresh, kSettleReach), sub);
-  const Settling settling = relax(sub, std::min(kLongest, world.params.numerics.max_step));
+  if (newton_step > 0) set_newton_steps(newton_step, sub);
+  const double duration = newton_step > 0 ? kNewtonSteps * newton_step
+                                          : std::min(kLongest, world.params.numerics.max_step);
+  const Settling settling = relax(sub, duration);
   Settled result{settling.ok, settling.cause, settling.steps, {}, {}};
   if (!settling.ok) return result;
 

@@ -52,11 +52,13 @@ NewShell shape_sphere(const World& world, std::size_t sphere, double pressure,
       directions(t, random_orientation(world.params.zoom.seed, s.cbm.lineage[sphere]));
   NewShell shell;
   double found = wanted;
+  const double largest = kRayReach * radius[sphere];
+  dcm::CuttingBall ball = available.find_ball(wanted, largest);
   // The chords of the mesh cut off volume: the free surface moves outward until it is regained,
   // faces at neighbours keep their places.
   for (double volume = wanted, k = 0; k < kFillings; ++k) {
-    const double size = available.find_radius(volume, kRayReach * radius[sphere]);
-    shell.node = available.fill(t, direction, size);
+    if (k > 0) ball.radius = available.find_radius(volume, largest, ball.offset);
+    shell.node = available.fill(t, direction, ball);
     found = geometry::compute_volume(shell.node, t.triangle);
     volume *= wanted / found;
   }

@@ -28,6 +28,10 @@ namespace {
 /// Longest step after a change of model, s: neighbours adapt to the new shape at once.
 constexpr double kStepAfterChange = 5;
 
+/// Newton steps of new meshes and of the neighbours of new spheres, s: so long that meshes are near
+/// rest and a cell that goes there and back hardly wanders, so short that few are carried along.
+constexpr double kSettlingStep = 300;
+
 /// Cell to change its model, with its distance outside the zoom.
 struct Candidate {
   Cell cell;
@@ -147,16 +151,40 @@ std::vector<NewShell> shape_spheres(const World& world, const std::vector<Candid
   return shells;
 }
 
-/// Deformable cells that have to settle: those that changed and their neighbours.
-std::vector<std::int64_t> meshes_to_settle(const State& s, const std::set<std::int64_t>& changed,
-                                           const PairForces& before) {
-  std::set<std::int64_t> touched = changed;
-  for (const auto& [pair, force] : before) touched.insert({pair.first, pair.second});
-  std::vector<std::int64_t> meshes;
+/// Deformable neighbours of new spheres.
+std::vector<std::int64_t> neighbours_of(const State& s, const std::vector<Candidate>& demoted,
+                                        const PairForces& before) {
+  std::set<std::int64_t> spheres, touched;
+  for (const Candidate& c : demoted) spheres.insert(c.lineage);
+  for (const auto& [pair, force] : before)
+    if (spheres.contains(pair.first) || spheres.contains(pair.second))
+      touched.insert({pair.first, pair.second});
   touched.erase(kNoPartner);  // boundary, whose number is that of empty lanes
+  std::vector<std::int64_t> meshes;
   for (const std::int64_t lineage : s.dcm.lineage)
     if (touched.contains(lineage)) meshes.push_back(lineage);
   return meshes;
+}
+
+/// Those of the promoted cells that are deformable now.
+std::vector<std::int64_t> new_meshes(const State& s, const std::vector<Candidate>& promoted) {
+  std::vector<std::int64_t> meshes;
+  for (const Candidate& c : promoted)
+    if (std::ranges::find(s.dcm.lineage, c.lineage) != s.dcm.lineage.end())
+      meshes.push_back(c.lineage);
+  return meshes;
+}
+
+/// Settles meshes.   @return false if the process was asked to stop
+bool settle(World& world, const std::vector<std::int64_t>& meshes, double step,
+            ZoomReport& report) {
+  if (meshes.empty()) return true;
+  const Settled settled = settle_cells(world, meshes, step);
+  if (settled.ok) return true;
+  if (stop_requested()) return false;
+  for (const std::int64_t cell : meshes)
+    report.changes.push_back({EventKind::kSettlingFailed, cell, settled.cause});
+  return true;
 }
 
 /// Changes the models of the candidates; cells without an acceptable shape keep theirs.
@@ -213,16 +241,10 @@ ZoomReport update_zoom(World& world, Workspace& work) {
   const PairForces before = compute_pair_forces(world, work, changing);
   State old = s;
   change_models(world, all, pressure, report);
-  const std::vector<std::int64_t> meshes = meshes_to_settle(s, changing, before);
-  if (!meshes.empty()) {
-    const Settled settled = settle_cells(world, meshes);
-    if (!settled.ok && stop_requested()) {
-      s = std::move(old);
-      return {{}, true};
-    }
-    if (!settled.ok)
-      for (const std::int64_t cell : meshes)
-        report.changes.push_back({EventKind::kSettlingFailed, cell, settled.cause});
+  if (!settle(world, neighbours_of(s, all.demote, before), kSettlingStep, report) ||
+      !settle(world, new_meshes(s, all.promote), kSettlingStep, report)) {
+    s = std::move(old);
+    return {{}, true};
   }
   size_workspace(world, work);
   s.clock.step = std::min(s.clock.step, kStepAfterChange);

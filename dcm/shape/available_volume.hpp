@@ -25,6 +25,12 @@ double share_of_distance(double radius, double other_radius, double distance);
 /// @param direction  of length 1
 double reach_to_faces(const Vec3& direction, double farthest, std::span<const VolumeFace> face);
 
+/// Ball that cuts an available volume.
+struct CuttingBall {
+  double radius = 0;           ///< um
+  Vec3 offset = Vec3::Zero();  ///< um, of its centre from that of the volume; less than the radius
+};
+
 /// Available volume, star-shaped from its centre.
 class AvailableVolume {
  public:
@@ -33,19 +39,25 @@ class AvailableVolume {
   AvailableVolume(const Vec3& center, Reach reach);
 
   /// Size of the part within a ball, um^3.
-  double volume(double radius) const;
+  double volume(const CuttingBall& ball) const;
 
   /// Radius of the ball in which the part has this volume, um; `largest` if that is too small.
-  double find_radius(double volume, double largest) const;
+  double find_radius(double volume, double largest, const Vec3& offset = Vec3::Zero()) const;
+
+  /// Ball in which the part has this volume and its centroid at the centre, or near it if
+  /// faces bound most of the part. Faces keep their places; the free surface moves.
+  /// @param largest  um, largest radius
+  CuttingBall find_ball(double volume, double largest) const;
 
   /// Nodes of a mesh spread over the surface of the part within a ball, um.
   /// @param direction  [n_node] of length 1, to the nodes of the whole ball
   /// @return           [n_node] um
   std::vector<Vec3> fill(const geometry::Topology& topology, std::span<const Vec3> direction,
-                         double radius) const;
+                         const CuttingBall& ball) const;
 
  private:
-  std::vector<Vec3> show(double radius) const;
+  std::vector<Vec3> show(const CuttingBall& ball) const;
+  Mat3 centroid_by_offset(const CuttingBall& ball) const;
 
   Vec3 center_;
   Reach reach_;

@@ -44,7 +44,7 @@ AvailableVolume make_volume(const Vec3& center, std::span<const VolumeFace> face
 
 TEST(AvailableVolume, WithoutFacesIsTheBall) {
   const AvailableVolume available = make_volume(Vec3::Zero(), {});
-  const auto node = available.fill(fine_icosphere, directions(Mat3::Identity()), kBallRadius);
+  const auto node = available.fill(fine_icosphere, directions(Mat3::Identity()), {kBallRadius});
   for (const Vec3& x : node)
     EXPECT_NEAR(x.norm(), kBallRadius, 1e-2);  // spread over faces of 642 nodes
 }
@@ -55,7 +55,7 @@ TEST(AvailableVolume, IsAsLargeAsAsked) {
   const double wanted = 4.0 / 3 * kPi * std::pow(kBallRadius, 3);
   const double radius = available.find_radius(wanted, 2 * kBallRadius);
   EXPECT_GT(radius, kBallRadius);
-  EXPECT_NEAR(available.volume(radius) / wanted, 1, 1e-9);
+  EXPECT_NEAR(available.volume({radius}) / wanted, 1, 1e-9);
   EXPECT_EQ(available.find_radius(10 * wanted, 1.5 * kBallRadius), 1.5 * kBallRadius);
 }
 
@@ -66,7 +66,7 @@ TEST(AvailableVolume, ABallCutByAPlaneHasItsVolumeAndStaysBelow) {
     const VolumeFace face{turn * Vec3(0, 0, 1), height};
     const Vec3 center(3, -4, 5);
     const auto node = make_volume(center, std::span(&face, 1))
-                          .fill(fine_icosphere, directions(turn), kBallRadius);
+                          .fill(fine_icosphere, directions(turn), {kBallRadius});
     for (const Vec3& x : node) {
       EXPECT_LE(face.normal.dot(x - center), height + 1e-9);
       EXPECT_LE((x - center).norm(), kBallRadius * (1 + 1e-12));
@@ -75,6 +75,27 @@ TEST(AvailableVolume, ABallCutByAPlaneHasItsVolumeAndStaysBelow) {
     const double volume = geometry::compute_volume(node, fine_icosphere.triangle);
     EXPECT_NEAR(volume / ball_below(kBallRadius, height), 0.985, 0.015) << height;
     EXPECT_TRUE(faces_outward(fine_icosphere, node, center));
+  }
+}
+
+TEST(AvailableVolume, AMovedBallPutsTheCentroidAtTheCentre) {
+  auto random = reference::stream(11);
+  const double wanted = 0.9 * ball_below(kBallRadius, kBallRadius);
+  for (const int faces : {0, 1, 3, 5}) {
+    std::vector<VolumeFace> face;
+    for (int k = 0; k < faces; ++k)
+      face.push_back({reference::random_vector(random, 1).normalized(), 0.85 * kBallRadius});
+    const Vec3 center(1, 2, 3);
+    const AvailableVolume available = make_volume(center, face);
+    const CuttingBall ball = available.find_ball(wanted, 1.6 * kBallRadius);
+    const CuttingBall central{available.find_radius(wanted, 1.6 * kBallRadius)};
+    EXPECT_NEAR(available.volume(ball) / wanted, 1, 1e-9) << faces;
+    const auto shift = [&](const CuttingBall& b) {
+      const auto node = available.fill(fine_icosphere, directions(Mat3::Identity()), b);
+      return (geometry::compute_centroid(node, fine_icosphere.triangle) - center).norm();
+    };
+    EXPECT_LT(shift(ball), 0.004 * kBallRadius) << faces;
+    if (faces == 1) EXPECT_GT(shift(central), 0.01 * kBallRadius);
   }
 }
 
@@ -88,7 +109,7 @@ TEST(AvailableVolume, MeshesOfNarrowOnesAreSound) {
           {reference::random_vector(random, 1).normalized(),
            kBallRadius * (0.15 + 0.8 * std::abs(reference::random_vector(random, 1).x()))});
     const auto node = make_volume(Vec3::Zero(), face)
-                          .fill(fine_icosphere, directions(Mat3::Identity()), kBallRadius);
+                          .fill(fine_icosphere, directions(Mat3::Identity()), {kBallRadius});
     for (const Vec3& x : node)
       for (const VolumeFace& f : face) EXPECT_LE(f.normal.dot(x), f.distance + 1e-9);
     EXPECT_TRUE(faces_outward(fine_icosphere, node, Vec3::Zero())) << trial;
