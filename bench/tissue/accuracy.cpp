@@ -101,7 +101,6 @@ void use(const AccuracySettings& a, runs::Scene& scene) {
   scene.numerics.max_step = a.step;
   scene.numerics.tolerance = a.tolerance;
   scene.numerics.max_move = a.max_move;
-  scene.numerics.extrapolate = true;
   scene.numerics.cg.tolerance = a.solver;
   scene.contact.skin = a.skin;
   scene.contact.quadrature = a.quadrature;

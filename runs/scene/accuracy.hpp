@@ -19,8 +19,8 @@ struct AccuracySettings {
   double skin = 0;       ///< um, margin of the neighbour lists
 };
 
-/// Errors to expect in growing and in compressed tissue, relative to a mesh of 1442 nodes and short
-/// steps. Measured by `acinus bench accuracy`.
+/// Errors to expect in tissue, relative to the finest meshes and short steps; contact forces of
+/// loose tissue. Measured by `acinus bench accuracy` and `acinus bench work-precision`.
 struct ExpectedErrors {
   double cytosol_pressure = 0, contact_area = 0, contact_force = 0, radius = 0;
 };

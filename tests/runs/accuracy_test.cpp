@@ -28,7 +28,6 @@ void expect_settings(const Scene& scene, const AccuracySettings& a) {
   EXPECT_EQ(scene.numerics.tolerance, a.tolerance);
   EXPECT_EQ(scene.numerics.max_move, a.max_move);
   EXPECT_EQ(scene.numerics.cg.tolerance, a.solver);
-  EXPECT_TRUE(scene.numerics.extrapolate);
 }
 
 TEST(Accuracy, SetsAllItsKeys) {
