@@ -23,14 +23,18 @@ struct CurvedTriangle {
 /// sphere through the corners has, becomes 1/circumradius.
 CurvedTriangle make_curved_triangle(const std::array<Vec3, 3>& corner, double curvature);
 
+/// Owner of a cap: a cell; an object that is given by a mesh; an object whose surface is the sphere
+/// itself.
+enum class CapOf { kCell, kObjectMesh, kObject };
+
 /// Spherical cap: the surface of a triangle's sphere above it, or the surface of an object around
 /// the place that is nearest to a triangle.
 struct SphericalCap {
-  Vec3 middle;             ///< um, centre of the rim; of an object, the place on its surface
-  Vec3 normal;             ///< unit, outward
-  double rim_radius = 0;   ///< um, at most the radius of the sphere
-  double curvature = 0;    ///< 1/um: 0 flat, negative of a hollow surface
-  bool is_object = false;  ///< the sphere is the surface itself, not an estimate from a mesh
+  Vec3 middle;            ///< um, centre of the rim; of an object, the place on its surface
+  Vec3 normal;            ///< unit, outward
+  double rim_radius = 0;  ///< um, at most the radius of the sphere
+  double curvature = 0;   ///< 1/um: 0 flat, negative of a hollow surface
+  CapOf side = CapOf::kCell;
 };
 SphericalCap cap_of(const CurvedTriangle& t);
 

@@ -1,6 +1,7 @@
 #include "contact/maugis_triangles.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "contact/maugis_overlap.hpp"
 #include "contact/maugis_stress.hpp"
@@ -81,8 +82,8 @@ std::array<double, 3> barycentric(const Triangle2& t, const Vec2& x) {
   return {1.0 - w1 - w2, w1, w2};
 }
 
-MaugisPair make_pair(const MaugisLaw& law, double radius) {
-  return {{radius, law.modulus, law.adhesion}, law.cohesive_stress};
+MaugisPair make_pair(const MaugisLaw& law, double radius, double overlap) {
+  return {{radius, modulus_at(law, overlap), law.adhesion}, law.cohesive_stress};
 }
 
 /// Step from 0 at low to 1 at high with continuous slope.
@@ -96,24 +97,43 @@ double facing_share(const SphericalCap& a, const SphericalCap& b, const ContactP
   return fade(std::min(a.normal.dot(plane.normal), -b.normal.dot(plane.normal)), kEdgeOn, kFacing);
 }
 
-/// Curvatures of the spheres of two caps with the sum of theirs.
+/// Share, 0 to 1, in which a cap counts as convex.
+double convex_share(const SphericalCap& cap) {
+  if (cap.side == CapOf::kObject) return cap.curvature < 0.0 ? 0.0 : 1.0;
+  return fade(cap.curvature, 0.0, kShared);
+}
+
+/// Curvatures of the spheres of two caps, with their sum, 1/um.
 struct SharedCurvature {
-  double a, b;
+  double a, b, sum;
 };
-SharedCurvature share_curvature(const SphericalCap& a, const SphericalCap& b, double sum) {
-  const auto own_part = [](const SphericalCap& cap) {
-    if (cap.is_object) return cap.curvature < 0.0 ? 0.0 : 1.0;
-    return fade(cap.curvature, 0.0, kShared);
-  };
-  const double own = std::min(own_part(a), own_part(b)), half = 0.5 * sum;
-  return {half + own * (a.curvature - half), half + own * (b.curvature - half)};
+SharedCurvature share_curvature(const SphericalCap& a, const SphericalCap& b, double max_radius) {
+  const bool meets_object = b.side != CapOf::kCell && b.curvature > 0.0;
+  const double bulge = meets_object ? convex_share(b) : 0.0;
+  const double k_a = a.curvature + bulge * std::max(0.0, -a.curvature);
+  const double sum = std::max(k_a + b.curvature, 1.0 / max_radius), half = 0.5 * sum;
+  const double own = std::max(std::min(convex_share(a), convex_share(b)), bulge);
+  return {half + own * (k_a - half), half + own * (b.curvature - half), sum};
+}
+
+/// States at an overlap and at one larger by kDeeper, with their pairs.
+struct Deepening {
+  MaugisPair now, then;
+  MaugisGrowth state;
+};
+Deepening deepen(const MaugisLaw& law, const ContactPlane& plane) {
+  const double deeper = plane.overlap + kDeeper;
+  const MaugisPair now = make_pair(law, plane.radius, plane.overlap),
+                   then = make_pair(law, plane.radius, deeper);
+  if (now.pair.modulus == then.pair.modulus)
+    return {now, then, maugis_growth(now, plane.overlap, kDeeper)};
+  return {now, then, {maugis_at_overlap(now, plane.overlap), maugis_at_overlap(then, deeper)}};
 }
 
 /// Stress over a polygon, with the growth of its parts for an overlap larger by kDeeper.
 StressParts integrate_over(const MaugisLaw& law, const ContactPlane& plane,
                            const SharedArea& area) {
-  const MaugisPair pair = make_pair(law, plane.radius);
-  const MaugisGrowth state = maugis_growth(pair, plane.overlap, kDeeper);
+  const auto [now, then, state] = deepen(law, plane);
   if (state.now.cohesive_radius == 0.0) return {};
   const std::span<const Vec2> polygon(area.corner.data(), static_cast<std::size_t>(area.n));
   const double c2 = state.now.cohesive_radius * state.now.cohesive_radius;
@@ -123,7 +143,7 @@ StressParts integrate_over(const MaugisLaw& law, const ContactPlane& plane,
     const double beyond = cross(x, side);  // length times distance; negative: outside this edge
     if (beyond < 0.0 && beyond * beyond >= c2 * side.squaredNorm()) return {};
   }
-  return integrate_stress(make_maugis_stress(pair, state.now), make_maugis_stress(pair, state.then),
+  return integrate_stress(make_maugis_stress(now, state.now), make_maugis_stress(then, state.then),
                           polygon);
 }
 
@@ -138,7 +158,7 @@ TrianglePart part_of(const StressPart& stress, const Triangle2& flat) {
 SphericalCap widen(const SphericalCap& object, double rim_radius) {
   const double k = object.curvature, rim = std::min(rim_radius, 1.0 / std::abs(k));
   const double below = rim * rim * k / (1.0 + std::sqrt(std::max(0.0, 1.0 - rim * rim * k * k)));
-  return {object.middle - below * object.normal, object.normal, rim, k, true};
+  return {object.middle - below * object.normal, object.normal, rim, k, CapOf::kObject};
 }
 
 TriangleContact contact_of(const MaugisLaw& law, const ContactPlane& plane, const SharedArea& area,
@@ -163,10 +183,16 @@ TriangleContact contact_of(const MaugisLaw& law, const ContactPlane& plane, cons
 
 }  // namespace
 
+double modulus_at(const MaugisLaw& law, double overlap) {
+  if (!std::isfinite(law.partner_modulus)) return law.modulus;
+  const double series = 1.0 / (1.0 / law.modulus + 1.0 / law.partner_modulus);
+  const double indentation = overlap * series / law.partner_modulus;
+  return indentation > law.most_yield ? law.modulus * (1.0 - law.most_yield / overlap) : series;
+}
+
 ContactPlane compute_contact_plane(const SphericalCap& a, const SphericalCap& b,
                                    double max_radius) {
-  const double sum = std::max(a.curvature + b.curvature, 1.0 / max_radius);
-  const auto [k_a, k_b] = share_curvature(a, b, sum);
+  const auto [k_a, k_b, sum] = share_curvature(a, b, max_radius);
   if (k_a < kPlaneCurvature || k_b < kPlaneCurvature) {
     const bool flat_a = k_a < kPlaneCurvature;
     const SphericalCap &plane = flat_a ? a : b, &ball = flat_a ? b : a;
@@ -186,8 +212,10 @@ ContactPlane compute_contact_plane(const SphericalCap& a, const SphericalCap& b,
 }
 
 TriangleContact compute_triangle_contact(const MaugisLaw& law, const CurvedTriangle& a,
-                                         const CurvedTriangle& b) {
-  const SphericalCap cap_a = cap_of(a), cap_b = cap_of(b);
+                                         const CurvedTriangle& b, CapOf b_side) {
+  const SphericalCap cap_a = cap_of(a);
+  SphericalCap cap_b = cap_of(b);
+  cap_b.side = b_side;
   const ContactPlane plane = compute_contact_plane(cap_a, cap_b, law.max_radius);
   if (plane.overlap < -law.farthest) return {};
   const double share = facing_share(cap_a, cap_b, plane);

@@ -23,10 +23,18 @@ struct MaugisLaw {
   /// Largest reduced radius, um. Flat or conforming surfaces would have an infinite one, and a
   /// stress of zero.
   double max_radius = 1e3;
+  /// Modulus of an elastic partner, kPa, E/(1 - nu^2), in series with E^ until the partner has
+  /// yielded by its largest indentation, um. Beyond, it is rigid.
+  double partner_modulus = std::numeric_limits<double>::infinity();
+  double most_yield = std::numeric_limits<double>::infinity();
   /// Gap of two spheres beyond which nothing is computed, um. At least that at which forces end
   /// (least_overlap), or infinite.
   double farthest = std::numeric_limits<double>::infinity();
 };
+
+/// Reduced modulus of the law at an overlap of two spheres, kPa. Continuous; pressures grow with
+/// the overlap.
+double modulus_at(const MaugisLaw& law, double overlap);
 
 /// Contact plane of two caps: the radical plane of their spheres, or the plane of a flat one.
 struct ContactPlane {
@@ -41,6 +49,11 @@ struct ContactPlane {
 /// alone, while the line between the nearly concentric centres of a hollow and a ball in it would
 /// be noise. Meshes flatter than a radius of 50 um share gradually, so that no force jumps where a
 /// curvature changes its sign.
+///
+/// An object that bulges meets a hollow triangle as a flat one: R^ is at most the radius of the
+/// object. A surface that fits about a thin vessel would have an R^ of up to the largest. Its
+/// spheres would overlap far beside the triangles, which are not exactly parallel to the vessel,
+/// and would leave triangles without a force that are deep in it.
 ContactPlane compute_contact_plane(const SphericalCap& a, const SphericalCap& b, double max_radius);
 
 /// Barycentric weights of the place of a triangle on the line through x along the normal.
@@ -75,8 +88,9 @@ struct TriangleContact {
   Vec3 normal = Vec3::Zero();  ///< unit, a to b
   TrianglePart push, pull;     ///< area 0: no such part
 };
+/// @param b_side  owner of b, a cell or the mesh of an object
 TriangleContact compute_triangle_contact(const MaugisLaw& law, const CurvedTriangle& a,
-                                         const CurvedTriangle& b);
+                                         const CurvedTriangle& b, CapOf b_side = CapOf::kCell);
 
 /// Contact of a triangle with an object, of which it meets the sphere that touches it at a place:
 /// the object itself if it is a plane or a ball. The area is that of the projected triangle.

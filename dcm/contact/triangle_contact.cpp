@@ -8,6 +8,7 @@
 
 #include "contact/candidates.hpp"
 #include "contact/maugis_overlap.hpp"
+#include "contact/vessel_yield.hpp"
 #include "core/parallel/threads.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "dcm/contact/contact_points.hpp"
@@ -40,6 +41,11 @@ PartnerSurface surface_of(const ContactParams& c, const contact::Material& m) {
   return {c.adhesion_factor * m.adhesion, m.young / (1 - m.poisson * m.poisson)};
 }
 
+/// Largest indentation of a vessel's wall, um, as with points.
+double wall_yield(const ContactParams& c, const contact::Material& wall, double radius) {
+  return std::min(contact::yield_limit(wall, radius), c.max_depth / 2);
+}
+
 contact::MaugisLaw law_between(const ContactInput& in, const ContactWorkspace& work, int a, int b,
                                double reach) {
   const std::size_t n = work.body.size(), k = b;
@@ -56,6 +62,7 @@ contact::MaugisLaw law_between(const ContactInput& in, const ContactWorkspace& w
 
 /// Search for all contacts of two bodies.
 struct BodyPair {
+  const ContactInput& in;
   const ContactWorkspace& work;
   contact::MaugisLaw law;
   const contact::Candidates& list;
@@ -68,15 +75,28 @@ struct BodyPair {
     return is_fixed() ? work.triangles.fixed[k - work.body.size()] : work.triangles.curved[k];
   }
 
+  /// Law at a triangle of body b: the wall of a vessel yields in proportion to its radius.
+  contact::MaugisLaw law_at(int triangle) const {
+    contact::MaugisLaw at = law;
+    const contact::Vessels& v = in.boundary.vessels;
+    const std::size_t first = work.body.size() + in.boundary.meshes.size();
+    if (v.wall == nullptr || static_cast<std::size_t>(list.body_b) < first) return at;
+    const auto& radius = v.network.radius[v.wall->segment[triangle]];
+    at.most_yield = wall_yield(in.options, v.material, 0.5 * (radius[0] + radius[1]));
+    return at;
+  }
+
   void find(std::vector<Contact>& out) const {
     const std::vector<CurvedTriangle>&a = work.triangles.curved[list.body_a], &b = curved_b();
+    const contact::CapOf side = is_fixed() ? contact::CapOf::kObjectMesh : contact::CapOf::kCell;
     for (std::size_t n = 0; n < list.point.size(); ++n) {
       const CurvedTriangle& at_a = a[list.point[n]];
       for (std::uint32_t e = list.start[n]; e < list.start[n + 1]; ++e) {
         const CurvedTriangle& at_b = b[list.triangle[e]];
         const double near = at_a.circumradius + at_b.circumradius + reach;
         if ((at_a.circumcenter - at_b.circumcenter).squaredNorm() > near * near) continue;
-        const contact::TriangleContact k = contact::compute_triangle_contact(law, at_a, at_b);
+        const contact::TriangleContact k =
+            contact::compute_triangle_contact(law_at(list.triangle[e]), at_a, at_b, side);
         for (const contact::TrianglePart* part : {&k.push, &k.pull})
           if (part->area > 0)
             out.push_back(record(list.point[n], list.triangle[e], k.normal, *part));
@@ -128,7 +148,7 @@ struct ObjectSearch {
 void find_at_vessels(const ContactInput& in, const SegmentCandidates& list,
                      const ObjectSearch& search) {
   const contact::Vessels& vessels = in.boundary.vessels;
-  const contact::MaugisLaw law = maugis_law(in.options, surface_of(in.options, vessels.material));
+  contact::MaugisLaw law = maugis_law(in.options, surface_of(in.options, vessels.material));
   for (std::size_t s = 0; s < list.site.size(); ++s) {
     const int t = list.site[s];
     contact::Gap nearest;
@@ -140,10 +160,11 @@ void find_at_vessels(const ContactInput& in, const SegmentCandidates& list,
       nearest = g;
       segment = list.segment[e];
     }
+    if (segment < 0) continue;
+    law.most_yield = wall_yield(in.options, vessels.material, nearest.radius);
     // The mean curvature of a tube, as that of the triangles.
-    if (segment >= 0)
-      search.find(t, nearest, 0.5 / nearest.radius, law,
-                  {.b = segment, .partner = contact::Partner::kVessel});
+    search.find(t, nearest, 0.5 / nearest.radius, law,
+                {.b = segment, .partner = contact::Partner::kVessel});
   }
 }
 
@@ -151,7 +172,9 @@ void find_at_vessels(const ContactInput& in, const SegmentCandidates& list,
 
 contact::MaugisLaw maugis_law(const ContactParams& c, const PartnerSurface& partner) {
   contact::MaugisLaw law;
-  law.modulus = 1 / (1 / c.modulus + 1 / partner.modulus);
+  law.modulus = c.modulus;
+  law.partner_modulus = partner.modulus;
+  law.most_yield = partner.most_yield;
   law.adhesion = partner.adhesion;
   law.cohesive_stress = partner.adhesion / c.cohesive_range;
   law.max_radius = c.max_radius;
@@ -208,7 +231,7 @@ void find_triangle_contacts(const ContactInput& in, ContactWorkspace& work, doub
       contact::find_contacts(list, work.body, work.fixed, work.lists.options,
                              relative_motion(work.lists, k), scratch.found[k]);
     else
-      BodyPair{work, law_between(in, work, list.body_a, list.body_b, reach), list, reach}.find(
+      BodyPair{in, work, law_between(in, work, list.body_a, list.body_b, reach), list, reach}.find(
           scratch.found[k]);
   });
   out.clear();

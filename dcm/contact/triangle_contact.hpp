@@ -10,6 +10,7 @@
 /// triangle [VanLiedekerke2020, section 2.1]. Search and law are one here; friction, which depends
 /// on the areas, is added with the loads. Contacts of a cell with itself keep the law of points.
 
+#include <limits>
 #include <vector>
 
 #include "contact/maugis_triangles.hpp"
@@ -24,6 +25,7 @@ namespace acinus::dcm {
 struct PartnerSurface {
   double adhesion = 0;  ///< nN/um, W of the pair
   double modulus = 0;   ///< kPa, E/(1 - nu^2); infinite: rigid
+  double most_yield = std::numeric_limits<double>::infinity();  ///< um, largest indentation
 };
 contact::MaugisLaw maugis_law(const ContactParams& options, const PartnerSurface& partner);
 

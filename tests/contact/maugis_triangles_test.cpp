@@ -117,8 +117,9 @@ TEST(MaugisTriangles, UnequalSpheresPlaneAndHollow) {
   EXPECT_NEAR(flat.radius, 10, 1e-13);
   EXPECT_NEAR(flat.overlap, 2 * sagitta(20, 0.1), 1e-13);
   // A plane is met as it is.
-  const ContactPlane plane = compute_contact_plane(cap_of(make_curved_triangle(low, 0.1)),
-                                                   {Vec3::Zero(), -Vec3::UnitZ(), 0, 0, true}, 1e3);
+  const ContactPlane plane =
+      compute_contact_plane(cap_of(make_curved_triangle(low, 0.1)),
+                            {Vec3::Zero(), -Vec3::UnitZ(), 0, 0, CapOf::kObject}, 1e3);
   EXPECT_NEAR(plane.radius, 10, 1e-13);
   EXPECT_NEAR(plane.overlap, sagitta(10, 0.1), 1e-13);
   // A ball of 10 in a hollow of 20: 1/R^ = 0.05, as two equal spheres of 40.
