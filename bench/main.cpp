@@ -45,6 +45,10 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(1, 1000000000));
   app.add_flag("--life", options.life,
                "stress: the cells of the same scenes also grow, divide and die");
+  app.add_option("--law", options.law,
+                 "stress: contact law of all scenes (default: drawn for each)")
+      ->type_name("LAW")
+      ->check(CLI::IsMember({"cohesive", "maugis-dugdale"}));
   app.add_option("--radius", options.radius, "out-of-sample: radius of the cells, um (default: 12)")
       ->type_name("UM")
       ->check(CLI::Range(4.0, 40.0));

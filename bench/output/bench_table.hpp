@@ -17,6 +17,7 @@ struct BenchOptions {
   int seeds = 3;       ///< number of random repetitions
   int first = 1;       ///< seed of the first repetition
   bool life = false;   ///< growth, division and death in random scenes
+  std::string law;     ///< contact.law of random scenes; "": drawn
   double radius = 12;  ///< of the cells in tests of stiffness laws, um
   double stiffness = 1;  ///< factor on the moduli of these cells
 };

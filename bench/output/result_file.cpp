@@ -107,6 +107,7 @@ std::string describe_command(const std::string& name, const BenchOptions& option
   if (options.seeds != usual.seeds) out += fmt::format(" --seeds {}", options.seeds);
   if (options.first != usual.first) out += fmt::format(" --first {}", options.first);
   if (options.life) out += " --life";
+  if (!options.law.empty()) out += " --law " + options.law;
   if (options.radius != usual.radius) out += fmt::format(" --radius {:g}", options.radius);
   if (options.stiffness != usual.stiffness)
     out += fmt::format(" --stiffness {:g}", options.stiffness);

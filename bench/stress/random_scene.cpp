@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bench/stress/random_law.hpp"
 #include "bench/stress/random_life.hpp"
 #include "bench/stress/random_zoom.hpp"
 #include "core/numbers/random.hpp"
@@ -44,7 +45,7 @@ class Drawing {
       : seed_(seed),
         wide_(family_of(seed) == Family::kWide),
         random_(seed, Purpose::kSampling, 0) {}
-  RandomScene draw(bool life);
+  RandomScene draw(const SceneKind& kind);
 
  private:
   bool chance(double p) { return random_.uniform() < p; }
@@ -357,9 +358,9 @@ void Drawing::add_moving_zoom() {
                              scene_.contains("lobule")})));
 }
 
-RandomScene Drawing::draw(bool life) {
+RandomScene Drawing::draw(const SceneKind& kind) {
   scene_["name"] = fmt::format("stress_{}", seed_);
-  scene_["description"] = fmt::format("{} stress scene", name_of(family_of(seed_)));
+  scene_["description"] = std::string(name_of(family_of(seed_))) + " stress scene";
   scene_["seed"] = seed_;
   draw_cell_type();
   draw_share();
@@ -377,8 +378,10 @@ RandomScene Drawing::draw(bool life) {
     draw_fill();
   else
     draw_lobule();
-  if (life) add_moving_zoom();
-  if (life) add_life();
+  const std::string law = kind.law.empty() ? draw_law(seed_) : kind.law;
+  if (law == kTriangleLaw) scene_["contact"] = {{"law", law}, {"quadrature", "3-point"}};
+  if (kind.life) add_moving_zoom();
+  if (kind.life) add_life();
   result_.cells = count_;
   result_.text = scene_.dump(2) + "\n";
   return result_;
@@ -390,6 +393,8 @@ const char* name_of(Family family) { return family == Family::kWide ? "wide" : "
 
 Family family_of(std::uint64_t seed) { return seed % 2 == 1 ? Family::kNominal : Family::kWide; }
 
-RandomScene draw_scene(std::uint64_t seed, bool life) { return Drawing(seed).draw(life); }
+RandomScene draw_scene(std::uint64_t seed, const SceneKind& kind) {
+  return Drawing(seed).draw(kind);
+}
 
 }  // namespace acinus::bench

@@ -24,9 +24,15 @@ struct RandomScene {
 };
 inline constexpr const char* kNetworkFile = "vessels.swc";
 
+/// Kind of the random scenes of a set.
+struct SceneKind {
+  /// Cells also grow, divide, die and rest (random_life.hpp) and may change their model
+  /// (random_zoom.hpp).
+  bool life = false;
+  std::string law = "";  ///< contact.law of all scenes; "": drawn for each
+};
+
 /// Draws the scene of a seed, always the same text.
-/// @param life  cells also grow, divide, die and rest (random_life.hpp) and may change their model
-///              (random_zoom.hpp)
-RandomScene draw_scene(std::uint64_t seed, bool life = false);
+RandomScene draw_scene(std::uint64_t seed, const SceneKind& kind = {});
 
 }  // namespace acinus::bench

@@ -74,7 +74,7 @@ class Workplace {
 /// Trial of one scene: written, run and inspected.
 class RandomRun {
  public:
-  RandomRun(std::uint64_t seed, bool life, const fs::path& root);
+  RandomRun(std::uint64_t seed, const SceneKind& kind, const fs::path& root);
   const runs::Child& child() const { return *child_; }
   RunVerdict inspect();
   void remove() const {
@@ -102,12 +102,12 @@ class RandomRun {
   std::optional<runs::Child> child_;
 };
 
-RandomRun::RandomRun(std::uint64_t seed, bool life, const fs::path& root)
+RandomRun::RandomRun(std::uint64_t seed, const SceneKind& kind, const fs::path& root)
     : folder_(root / fmt::format("seed_{}", seed)) {
   std::error_code ignored;
   fs::remove_all(folder_, ignored);
   fs::create_directories(folder_, ignored);  // what fails shows when the scene is written
-  const RandomScene scene = draw_scene(seed, life);
+  const RandomScene scene = draw_scene(seed, kind);
   result_.seed = seed;
   result_.cells = scene.cells;
   io::write_text_file(file("scene.json"), scene.text);
@@ -203,9 +203,10 @@ RunVerdict RandomRun::inspect() {
 
 BenchTable bench_stress(const BenchOptions& options) {
   const Workplace place(options.folder);
+  const SceneKind kind{options.life, options.law};
   const std::string program = hash_of_file(runs::program_beside("acinus"));
   VerdictFile file(options.folder.empty() ? "" : (place.path() / "verdicts.jsonl").string(),
-                   program, options.life);
+                   program, kind);
   const std::size_t most = options.threads == 1 ? 1 : kMostConcurrentRuns;
   const auto first = static_cast<std::uint64_t>(options.first);
   const std::uint64_t end = first + static_cast<std::uint64_t>(options.seeds);
@@ -216,7 +217,7 @@ BenchTable bench_stress(const BenchOptions& options) {
   if (!all.empty()) fmt::print("{} scenes were judged before\n", all.size());
   for (std::uint64_t seed = first; seed < end || !running.empty();) {
     for (; running.size() < most && seed < end; ++seed)
-      if (!file.before().contains(seed)) running.emplace_back(seed, options.life, place.path());
+      if (!file.before().contains(seed)) running.emplace_back(seed, kind, place.path());
     if (running.empty()) break;
     std::vector<const runs::Child*> children;
     for (const RandomRun& trial : running) children.push_back(&trial.child());

@@ -25,9 +25,10 @@ constexpr std::array kLifeEvents{"division", "division_waits", "settling_failed"
 
 /// Parses a line; empty if it is incomplete, or of another program or kind of scenes.
 std::optional<RunVerdict> read_line(const std::string& line, const std::string& program,
-                                    bool life) {
+                                    const SceneKind& kind) {
   const Json j = Json::parse(line, nullptr, false);
-  if (!j.is_object() || j.value("program", "") != program || j.value("life", !life) != life)
+  if (!j.is_object() || j.value("program", "") != program ||
+      j.value("life", !kind.life) != kind.life || j.value("law", "") != kind.law)
     return {};
   const std::string name = j.value("outcome", "");
   const auto outcome =
@@ -49,12 +50,12 @@ const char* name_of(TrialOutcome outcome) {
   return kNames[static_cast<std::size_t>(outcome)];
 }
 
-VerdictFile::VerdictFile(const std::string& path, const std::string& program, bool life)
-    : program_(program), life_(life) {
+VerdictFile::VerdictFile(const std::string& path, const std::string& program, const SceneKind& kind)
+    : program_(program), kind_(kind) {
   if (path.empty()) return;
   std::ifstream in(path);
   for (std::string line; std::getline(in, line);)
-    if (const auto verdict = read_line(line, program, life)) before_[verdict->seed] = *verdict;
+    if (const auto verdict = read_line(line, program, kind)) before_[verdict->seed] = *verdict;
   file_.open(path, std::ios::app);
   if (!file_) io::fail_on_disk(path, "write", errno);
   file_ << '\n';  // ends a torn line
@@ -62,10 +63,15 @@ VerdictFile::VerdictFile(const std::string& path, const std::string& program, bo
 
 void VerdictFile::add(const RunVerdict& v) {
   if (!file_.is_open()) return;
-  const Json line{{"program", program_}, {"life", life_},
-                  {"seed", v.seed},      {"outcome", name_of(v.outcome)},
-                  {"cells", v.cells},    {"cpu_s", v.cpu_s},
-                  {"cause", v.cause},    {"events", v.events}};
+  const Json line{{"program", program_},
+                  {"life", kind_.life},
+                  {"law", kind_.law},
+                  {"seed", v.seed},
+                  {"outcome", name_of(v.outcome)},
+                  {"cells", v.cells},
+                  {"cpu_s", v.cpu_s},
+                  {"cause", v.cause},
+                  {"events", v.events}};
   file_ << line.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
 }
 

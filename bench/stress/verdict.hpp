@@ -43,14 +43,14 @@ class VerdictFile {
   /// Opens the file and reads its verdicts.
   /// @param path     "" = none
   /// @param program  hash of the program; lines of other programs are ignored
-  VerdictFile(const std::string& path, const std::string& program, bool life);
+  VerdictFile(const std::string& path, const std::string& program, const SceneKind& kind);
   /// Verdicts that the file held when it was opened, by seed.
   const std::map<std::uint64_t, RunVerdict>& before() const { return before_; }
   void add(const RunVerdict& verdict);
 
  private:
   std::string program_;
-  bool life_;
+  SceneKind kind_;
   std::map<std::uint64_t, RunVerdict> before_;
   std::ofstream file_;
 };

@@ -102,6 +102,9 @@ TEST(DescribeCommand, NamesWhatDiffersFromTheDefaults) {
   options.life = true;
   EXPECT_EQ(describe_command("stress", options, 1),
             "acinus bench stress --threads 1 --seeds 1 --first 53 --life");
+  options.law = "cohesive";
+  EXPECT_EQ(describe_command("stress", options, 1),
+            "acinus bench stress --threads 1 --seeds 1 --first 53 --life --law cohesive");
   options = {};
   options.radius = 9.5;
   options.stiffness = 0.5;
