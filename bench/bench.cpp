@@ -15,6 +15,7 @@
 #include "bench/output/result_file.hpp"
 #include "bench/output/speed_index.hpp"
 #include "bench/step/assembly.hpp"
+#include "bench/step/fields.hpp"
 #include "bench/step/nucleus_cost.hpp"
 #include "bench/step/rank_traffic.hpp"
 #include "bench/step/skipping.hpp"
@@ -50,6 +51,7 @@ const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
       {"contact-laws-pull-off", bench_contact_laws_pull_off},
       {"dcm216", bench_dcm216},
       {"dcm27", bench_dcm27},
+      {"fields", bench_fields},
       {"jkr", bench_jkr},
       {"nucleus", bench_nucleus},
       {"out-of-sample", bench_out_of_sample},

@@ -11,7 +11,7 @@ endif()
 install(DIRECTORY runs/scenes runs/studies runs/laws DESTINATION ${CMAKE_INSTALL_DATADIR}/acinus)
 install(FILES LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-set(installed core geometry solve io contact imaging dcm cbm coupling calibration)
+set(installed core geometry solve substances io contact imaging dcm cbm coupling calibration)
 foreach(library ${installed})
   set_target_properties(acinus_${library} PROPERTIES EXPORT_NAME ${library})
   install(DIRECTORY ${library} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/acinus FILES_MATCHING PATTERN "*.hpp")

@@ -10,6 +10,7 @@
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/start_up.hpp"
 #include "coupling/step/workspace_size.hpp"
+#include "coupling/substances/responses.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -46,6 +47,7 @@ double Simulation::time_to_event(const Observer& observer) const {
   const double t = time();
   double left = next_change(world_.params, t) - t;
   if (observer.next_moment) left = std::min(left, observer.next_moment(t) - t);
+  left = std::min(left, next_supply_change(world_.params.substances, t + kSameTime) - t);
   left = std::min(left, coupling::time_to_event(world_));
   const Motility& m = world_.params.motility;
   if (m.leader_force > 0)
@@ -76,10 +78,12 @@ bool Simulation::run_events(const Observer& observer) {
 StepResult Simulation::take_step(double limit, LastStep& last) {
   last.was_running = is_running();
   last.change = next_change(world_.params, time());
+  update_guidance(world_.params.substances, world_.state);
   return advance(world_, work_, awake_, limit);
 }
 
 bool Simulation::end_step(const StepResult& step, const LastStep& last, const Observer& observer) {
+  if (last.was_running) advance_substances(world_, step.step, substances_, work_.timings);
   if (observer.step) observer.step(step);
   if (!last.was_running) {
     end_step_of_start_up(observer);

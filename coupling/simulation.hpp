@@ -7,6 +7,7 @@
 #include "coupling/life/life.hpp"
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/step/loop.hpp"
+#include "coupling/substances/fields.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 
@@ -68,6 +69,7 @@ class Simulation {
   World world_;
   Workspace work_;
   AwakePart awake_;
+  SubstanceWorkspace substances_;
 };
 
 }  // namespace acinus::coupling

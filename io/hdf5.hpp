@@ -5,6 +5,7 @@
 
 #include <hdf5.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -104,6 +105,12 @@ class File {
   void write_attribute(const std::string& object, const std::string& name,
                        std::span<const std::int64_t> value);
   void write_attribute(const std::string& object, const std::string& name, std::string_view text);
+  /// Writes an attribute of double precision once.
+  void write_numbers(const std::string& object, const std::string& name,
+                     std::span<const double> value);
+  /// Writes a three-dimensional dataset once, slowest axis first, with checksums.
+  void write_volume(const std::string& name, const std::array<std::int64_t, 3>& extent,
+                    std::span<const float> value, bool filtered);
   void write_hash(const std::string& object, const std::string& name, std::uint64_t value);
   std::vector<std::int64_t> read_attribute(const std::string& object,
                                            const std::string& name) const;

@@ -13,13 +13,13 @@ import tempfile
 
 # A folder includes only folders on floors below its own, and itself.
 FLOORS = {"cli": 9, "bench": 9, "python": 9, "service": 8, "runs": 7, "calibration": 6, "coupling": 5, "dcm": 4, "cbm": 4, "contact": 3,
-          "imaging": 3, "solve": 2, "io": 2, "geometry": 1, "core": 0}
+          "imaging": 3, "solve": 2, "io": 2, "substances": 2, "geometry": 1, "core": 0}
 # The rooms of a folder, lowest first; "" are the files directly in it. A room includes only those before it.
 ROOMS = {
     "core": ("", "numbers", "parallel", "units"),
     "geometry": ("", "readers", "implicit"),
     "dcm": ("", "terms", "contact", "shape", "loads"),
-    "coupling": ("generate", "vessels", "apparatus", "interface", "world", "migration", "step", "measure", "subworld", "sleep", "zoom", "life", ""),
+    "coupling": ("generate", "vessels", "apparatus", "interface", "world", "substances", "migration", "step", "measure", "subworld", "sleep", "zoom", "life", ""),
     "runs": ("scene", "assemble", "experiments", "images", "session", "calibrate", "compare", "study", "openvt", ""),
     "service": ("page", "report", "serve"),
     "bench": ("output", "step", "tissue", "stress", "work_precision", "kernels", ""),

@@ -39,6 +39,7 @@ enum class Purpose : std::uint32_t {
   kProliferation = 11,
   kSharing = 12,
   kImage = 13,
+  kSignalDeath = 14,
 };
 
 /// Address of one block of random words.

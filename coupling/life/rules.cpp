@@ -10,6 +10,8 @@
 #include "coupling/life/density.hpp"
 #include "coupling/life/proliferation.hpp"
 #include "coupling/measure/measure.hpp"
+#include "coupling/substances/fields.hpp"
+#include "coupling/substances/responses.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -84,17 +86,24 @@ void look_at_rules(World& world, Workspace& work, Plan& plan) {
   const std::int64_t now = grid_interval(time_of(s), p.grid);
   if (now == s.life_interval) return;
   s.life_interval = now;
-  const std::vector<double> factor = growth_factors(world, work);
+  std::vector<double> factor = growth_factors(world, work);
+  const SubstanceParams& signals = world.params.substances;
+  const bool signals_growth = has_rule(signals, Behaviour::kGrowth);
+  std::vector<std::vector<double>> concentration;
+  if (signals_growth || has_rule(signals, Behaviour::kDeath))
+    concentration = cell_concentrations(world);
+  if (signals_growth) scale_growth(world, concentration, factor);
   if (p.proliferation) let_proliferate(world, factor);
   for_each_cell(s, [&](const Cell& c) {
     Cycle& cycle = s.cycle[c.index];
     if (cycle.fate == Fate::kLyse) return;
-    if (applies_any(p, true, s, c)) {
+    if (applies_any(p, true, s, c) || dies_of_signal(world, c, concentration, now)) {
       (cycle_of(world.params, s, c).death.lysis ? plan.lyse : plan.remove).push_back(c);
       return;
     }
     if (cycle.duration > 0 &&
-        (is_inhibited(cycle_of(world.params, s, c)) || !p.rule.empty() || p.proliferation))
+        (is_inhibited(cycle_of(world.params, s, c)) || !p.rule.empty() || p.proliferation ||
+         signals_growth))
       set_growth(world.params, s, c, factor[c.index]);
   });
 }
@@ -117,7 +126,7 @@ void look_at_clocks(const World& world, Plan& plan) {
 }  // namespace
 
 bool has_life(const Params& p) {
-  return !p.life.rule.empty() ||
+  return !p.life.rule.empty() || has_rule(p.substances, Behaviour::kDeath) ||
          std::ranges::any_of(p.life.type, [](const CycleParams& c) { return c.time > 0; });
 }
 
@@ -170,7 +179,10 @@ Plan make_plan(World& world, Workspace& work) {
 
 double time_to_life_event(const World& world) {
   const LifeParams& p = world.params.life;
-  if (p.rule.empty() && !p.proliferation && std::ranges::none_of(p.type, is_inhibited))
+  const bool signalled = has_rule(world.params.substances, Behaviour::kGrowth) ||
+                         has_rule(world.params.substances, Behaviour::kDeath);
+  if (p.rule.empty() && !p.proliferation && !signalled &&
+      std::ranges::none_of(p.type, is_inhibited))
     return std::numeric_limits<double>::infinity();
   return time_to_next_interval(time_of(world.state), p.grid);
 }

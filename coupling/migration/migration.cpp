@@ -86,7 +86,15 @@ void compute_cell_forces(const World& world, const State& s, double step,
   forces.cbm.assign(s.cbm.n_cell(), Vec3::Zero());
   if (!controls_at(s.clock, world.params.start_up).motility) return;
   const double time = s.clock.time - s.clock.origin;
-  auto active = [&](std::int64_t lineage, double diffusion, double friction) {
+  auto guide = [&](std::size_t index, const Vec3& center, Vec3& force) {
+    if (!s.guidance.empty()) force += s.guidance[index].force;
+    if (!(m.leader_force > 0) || leader[index] == 0) return;
+    force += m.leader_force * (world.params.substances.leader_signal >= 0 && !s.guidance.empty()
+                                   ? s.guidance[index].heading
+                                   : toward_axis(m, center));
+  };
+  auto active = [&](std::size_t index, std::int64_t lineage, double diffusion, double friction) {
+    if (!s.guidance.empty()) diffusion *= s.guidance[index].motility;
     if (!m.random || diffusion <= 0) return Vec3(Vec3::Zero());
     Vec3 force = friction * std::sqrt(2 * diffusion / m.grid) *
                  mean_random(m.seed, lineage, m.grid, time, step);
@@ -96,16 +104,15 @@ void compute_cell_forces(const World& world, const State& s, double step,
   for_each_index(s.dcm.n_lane(), s.dcm.n_lane() > kParallelCells, [&](std::size_t l) {
     if (!s.dcm.active(l) || medium.dcm[l] < 0) return;
     const dcm::Params& p = world.params.dcm[s.dcm.group[l / kLanes].type];
-    forces.dcm[l] = s.dcm.pull[l] + active(s.dcm.lineage[l], p.diffusion, medium.dcm[l]);
-    if (m.leader_force > 0 && leader[l])
-      forces.dcm[l] += m.leader_force * toward_axis(m, dcm::cell_center(s.dcm, l));
+    forces.dcm[l] = s.dcm.pull[l] + active(l, s.dcm.lineage[l], p.diffusion, medium.dcm[l]);
+    guide(l, dcm::cell_center(s.dcm, l), forces.dcm[l]);
   });
   for_each_index(s.cbm.n_cell(), s.cbm.n_cell() > kParallelCells, [&](std::size_t c) {
     if (medium.cbm[c] < 0) return;
     const cbm::Params& p = world.params.cbm[s.cbm.type[c]];
-    forces.cbm[c] = s.cbm.pull[c] + active(s.cbm.lineage[c], p.diffusion, medium.cbm[c]);
-    if (m.leader_force > 0 && leader[s.dcm.n_lane() + c])
-      forces.cbm[c] += m.leader_force * toward_axis(m, cbm::center_of(s.cbm, c));
+    forces.cbm[c] =
+        s.cbm.pull[c] + active(s.dcm.n_lane() + c, s.cbm.lineage[c], p.diffusion, medium.cbm[c]);
+    guide(s.dcm.n_lane() + c, cbm::center_of(s.cbm, c), forces.cbm[c]);
   });
   world.params.apparatus.add_cell_forces(time + 0.5 * step, {s.dcm, s.cbm, forces.dcm, forces.cbm});
   add_fading_forces(s, s.clock.time + 0.5 * step, forces);

@@ -195,6 +195,7 @@ LoopResult set_sleepers_velocity(World& world, Workspace& w, double duration) {
   take_part(world, std::move(sleepers), std::move(ring), part);
   State& small = part.world.state;
   limit_velocity(small, duration);
+  small.guidance.clear();
   Params& params = part.world.params;
   params.motility.random = false;
   params.motility.leader_force = 0;

@@ -19,6 +19,7 @@ bool may_sleep(const State& s, const Cell& c) {
   const Ramp& volume = volume_of(s, c);
   if (t < volume.end && volume.from != volume.to) return false;
   if (c.index < s.leader.size() && s.leader[c.index] != 0) return false;
+  if (c.index < s.guidance.size() && !s.guidance[c.index].force.isZero(0)) return false;
   return c.deformable ? s.dcm.birth[c.at].is_forgotten(t) : t >= s.cbm.strength[c.at].end;
 }
 

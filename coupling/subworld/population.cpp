@@ -52,6 +52,10 @@ State compose(std::span<const SelectedCell<State>> dcm, std::span<const Selected
       s.model_since.resize(n_cell, like.clock.origin);
       s.model_since[to] = from.model_since[at];
     }
+    if (!from.guidance.empty()) {
+      s.guidance.resize(n_cell);
+      s.guidance[to] = from.guidance[at];
+    }
     if (value_of(from.asleep, at, std::uint8_t{0}) == 0) return;
     s.asleep.resize(n_cell, 0);
     s.asleep[to] = 1;
@@ -129,6 +133,7 @@ void exchange_cells(std::span<const std::uint8_t> gone, std::span<const int> typ
     next.last_move.resize(next.last_move.size() + s.tree.n_row() * kPointStride, 0.0);
   }
   next.tree = std::move(s.tree);
+  next.substance = std::move(s.substance);
   s = std::move(next);
 }
 

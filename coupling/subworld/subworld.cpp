@@ -139,6 +139,7 @@ void extract_at_rest(const World& world, CellSet moving, CellSet constrained, Su
   take_cells(world.state, std::move(moving), std::move(constrained), sub);
   State& s = sub.world.state;
   s.fading.clear();
+  s.guidance.clear();
   const double now = s.clock.time;
   for (Ramp& v : s.dcm.volume) v = frozen(v, now);
   for (dcm::BirthShape& b : s.dcm.birth) b.weight = frozen(b.weight, now);

@@ -125,6 +125,10 @@ std::uint64_t hash_state(const State& s) {
   add(std::array{static_cast<std::int64_t>(s.clock.phase), s.clock.accepted,
                  static_cast<std::int64_t>(s.clock.coarse ? 1 : 0), s.leader_interval,
                  s.sleep_interval, s.life_interval, s.next_lineage, s.divisions, s.deaths});
+  for (const SubstanceState& field : s.substance) {
+    add(field.concentration);
+    add(std::array{field.secreted, field.entered, field.supplied, field.decayed});
+  }
   const std::uint64_t value = XXH64_digest(hash);
   XXH64_freeState(hash);
   return value;

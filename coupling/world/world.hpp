@@ -16,6 +16,7 @@
 #include "coupling/vessels/vessel_tree.hpp"
 #include "coupling/world/cycle.hpp"
 #include "coupling/world/fading_force.hpp"
+#include "coupling/world/substance.hpp"
 #include "coupling/world/zoom.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "dcm/params.hpp"
@@ -96,6 +97,7 @@ struct Params {
   contact::Boundary boundary;  ///< vessels with a tree follow it
   VesselTree tree;
   Apparatus apparatus;
+  SubstanceParams substances;
 };
 
 /// Pending events after the last step. A step and its events are one, unless the process is asked
@@ -146,6 +148,9 @@ struct State {
   std::vector<FadingForce> fading;
   std::vector<double> settle_pressure;  ///< kPa per cell at the last check of the settling phase
   double settle_time = -1;              ///< s, time of that check
+  std::vector<SubstanceState> substance;  ///< empty: none
+  /// [dcm lanes, then cbm cells] written before each step; empty: no cell follows a gradient
+  std::vector<Guidance> guidance;
 };
 
 /// Number of cells of both models.

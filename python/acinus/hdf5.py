@@ -30,8 +30,8 @@ def _open(path):
 
 
 @contextlib.contextmanager
-def open_run_file(path):
-    """The run file of that path for the time of a `with`; checks that it is one.
+def open_run_file(path, expected="acinus/run"):
+    """The run file of that path, or one with another schema, for the time of a `with`; checks that it is one.
 
     Raises NotFound, Damaged.
     """
@@ -39,8 +39,8 @@ def open_run_file(path):
         raise NotFound(f"{path}: there is no such file. Give a run folder, or a run.vtkhdf itself.")
     with _open(path) as file:
         schema = file.attrs.get("schema", b"")
-        if text_of(schema) != "acinus/run":
-            raise Damaged(f"{path}: is not a run file of acinus (schema \"{text_of(schema)}\", expected \"acinus/run\"). "
+        if text_of(schema) != expected:
+            raise Damaged(f"{path}: is not a run file of acinus (schema \"{text_of(schema)}\", expected \"{expected}\"). "
                           "Give the run.vtkhdf of a run folder.")
         version = [int(v) for v in file.attrs.get("schema_version", [0])]
         if version[0] != 1:

@@ -4,6 +4,7 @@ import os
 import numpy as np
 
 from acinus.errors import Damaged, NoSuchItem, NotFound
+from acinus.field import read_field
 from acinus.frame import read_frame
 from acinus.hdf5 import open_run_file, read_rows, text_of, texts_of, unit_of
 from acinus.json_text import parse_json, read_json
@@ -60,6 +61,13 @@ class Run:
         """(frames,) s."""
         with open_run_file(self.file) as file:
             return read_rows(file["VTKHDF/Steps/Values"], 0, _count_frames(file))
+
+    def field(self, name, frame=-1):
+        """Concentration of a substance at a frame.
+
+        Raises NoSuchItem.
+        """
+        return read_field(self.folder, name, frame)
 
     # ---- tables ---------------------------------------------------------------------------
 

@@ -24,6 +24,7 @@
 #include "runs/assemble/build_correction.hpp"
 #include "runs/assemble/build_life.hpp"
 #include "runs/assemble/build_params.hpp"
+#include "runs/assemble/build_substances.hpp"
 #include "runs/assemble/cell_types.hpp"
 #include "runs/assemble/place_cells.hpp"
 #include "runs/assemble/placing_advice.hpp"
@@ -195,6 +196,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
     built.notes.info.push_back(take_start(scene, types_of(p), world.state));
     coupling::place_vessels(p.tree, world.state.tree, p.boundary.vessels);
     coupling::begin_life(world);
+    build_substances(scene, world, built.notes);
     return built;
   }
   const std::vector<geometry::Surface> surfaces = read_cell_surfaces(scene);
@@ -208,6 +210,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   check_starts(scene, cells, p.boundary);
   add_cells(scene, cells, built.type_names, p, world.state);
   note_weak_cortex(scene, world.state.dcm, built.notes);
+  build_substances(scene, world, built.notes);
   if (scene.start_up.enabled) {
     coupling::begin_start_up(world, scene.start_up.initial_radius);
   } else if (!surfaces.empty()) {

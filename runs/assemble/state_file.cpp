@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "runs/assemble/state_numbers.hpp"
+#include "runs/assemble/substance_file.hpp"
 #include "runs/assemble/tree_file.hpp"
 
 namespace acinus::runs {
@@ -336,6 +337,7 @@ void put_state(const coupling::State& s, io::CheckpointData& d) {
   put_tree(s.tree, d);
   put_life(s, d);
   put_zoom(s, d);
+  put_substances(s, d);
   d.put_count("clock/phase", static_cast<std::int64_t>(s.clock.phase));
   d.put_count("clock/coarse", s.clock.coarse ? 1 : 0);
   d.put_count("clock/events_due", static_cast<std::int64_t>(s.clock.due));
@@ -356,6 +358,7 @@ void get_state(const io::CheckpointData& d, const StateTypes& types, coupling::S
   get_tree(d, s.tree);
   get_life(d, s);
   get_zoom(d, s);
+  get_substances(d, s);
   s.clock.phase = static_cast<coupling::Phase>(as_int(d, "clock/phase", d.count("clock/phase")));
   s.clock.coarse = d.count("clock/coarse") != 0;
   // Files of 0.1.0 have neither of the next two.

@@ -86,11 +86,16 @@ Scene compression_scene(const Scene& scene, const ClumpOptions& options) {
       std::max(type.dcm.local_area_modulus, kLeastLocalAreaModulus * type.dcm.bulk_modulus);
   type.dcm.nucleus.reset();  // spheres have neither
   type.dcm.contraction.reset();
+  type.exchange.clear();
   type.cbm.young_spread = 0;
   type.cbm.stiffness_correction = "none";
   s.cell_types = {{name, type}};
   s.cells.types.clear();
   s.life = {};
+  s.substances.clear();
+  s.substance_grid = {};
+  s.rules.clear();
+  s.motility.leader_signal.clear();
   s.name = "calibration";
   s.model = s.cells.model = CellModel::kDcm;
   if (options.cells > 0) s.cells.count = options.cells;

@@ -12,6 +12,7 @@
 #include "coupling/world/world.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "runs/scene/experiment_list.hpp"
+#include "runs/scene/substance_blocks.hpp"
 
 namespace acinus::runs {
 
@@ -63,6 +64,12 @@ template <>
 inline constexpr const char* kChoices<coupling::DivisionAxis> = "random|plane|given|vessel";
 template <>
 inline constexpr const char* kChoices<coupling::InhibitedBy> = "none|pressure|volume|density";
+template <>
+inline constexpr const char* kChoices<substances::FaceKind> = "no_flux|fixed|exchange";
+template <>
+inline constexpr const char* kChoices<BoxFace> = "x_low|x_high|y_low|y_high|z_low|z_high";
+template <>
+inline constexpr const char* kChoices<coupling::Behaviour> = "growth|death|motility|chemotaxis";
 template <>
 inline constexpr const char* kChoices<coupling::Lattice> = "fcc|bcc";
 

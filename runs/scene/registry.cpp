@@ -226,6 +226,23 @@ void describe(Visitor& v, Scene& s) {
         {.name = "life", .meaning = "which cells rest or die, and when", .affects = Affects::kStep},
         s.life, describe_life);
   blocks(v,
+         {.name = "substances",
+          .meaning = "substances that diffuse around the cells",
+          .item = "substance",
+          .affects = Affects::kStep},
+         s.substances, describe_substance);
+  block(v,
+        {.name = "substance_grid",
+         .meaning = "grid, step and accuracy of the fields of substances",
+         .affects = Affects::kStep},
+        s.substance_grid, describe_substance_grid);
+  blocks(v,
+         {.name = "rules",
+          .meaning = "responses of cells to substances; those of growth multiply",
+          .item = "rule",
+          .affects = Affects::kStep},
+         s.rules, describe_signal_rule);
+  blocks(v,
          {.name = "zoom",
           .meaning = "regions whose cells are DCM at t = 0 (their union)",
           .item = "zoom",

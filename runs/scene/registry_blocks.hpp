@@ -135,6 +135,10 @@ void describe_lobule(Visitor& v, LobuleBlock& b);
 void describe_vessels(Visitor& v, VesselBlock& b);
 void describe_wall(Visitor& v, WallEntry& b);
 void describe_capsule(Visitor& v, CapsuleEntry& b);
+void describe_substance(Visitor& v, SubstanceBlock& b);
+void describe_substance_grid(Visitor& v, SubstanceGridBlock& b);
+void describe_exchange(Visitor& v, ExchangeEntry& b);
+void describe_signal_rule(Visitor& v, SignalRuleEntry& b);
 void describe_static_mesh(Visitor& v, StaticMeshEntry& b);
 
 }  // namespace acinus::runs

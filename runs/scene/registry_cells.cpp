@@ -320,6 +320,12 @@ void describe_cell_type(Visitor& v, CellType& b) {
          .meaning = "how a cell dies that a rule of life lets die",
          .affects = Affects::kStep},
         b, describe_death);
+  blocks(v,
+         {.name = "exchange",
+          .meaning = "what cells of this type secrete and take up",
+          .item = "cell.exchange",
+          .affects = Affects::kStep},
+         b.exchange, describe_exchange);
   block(v, {.name = "dcm", .meaning = "the cell as a deformable triangulated surface"}, b.dcm,
         describe_dcm);
   block(v, {.name = "cbm", .meaning = "the cell as an elastic sphere", .compared = false}, b.cbm,

@@ -22,6 +22,10 @@ void describe_motility(Visitor& v, MotilityBlock& b) {
           .range = kNotNegative,
           .symbol = "F_mor"},
          b.leader_force);
+  v.text({.name = "leader_signal",
+          .meaning = "substance whose gradient that force follows upward; \"\" = it points toward "
+                     "the vein axis"},
+         b.leader_signal);
   v.real({.name = "leader_grid",
           .meaning = "time between two choices of the leading cells",
           .dimension = kTime,

@@ -86,6 +86,9 @@ void check_life(const Scene& scene, Report& report) {
     }
     if (rule.die && reason.empty()) reason = pointer + "/do";
   }
+  for (std::size_t i = 0; i < scene.rules.size(); ++i)
+    if (scene.rules[i].behaviour == coupling::Behaviour::kDeath && reason.empty())
+      reason = fmt::format("/rules/{}/behaviour", i);
   if (!reason.empty()) check_integrator(scene, reason, report);
 }
 

@@ -25,6 +25,7 @@
 #include "coupling/world/world.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "runs/scene/choices.hpp"
+#include "runs/scene/substance_blocks.hpp"
 
 namespace acinus::runs {
 
@@ -66,6 +67,7 @@ struct CellType {
   double diffusion = dcm::Params{}.diffusion;  ///< um^2/s, motility D
   coupling::CycleParams cycle;
   double softening = 1;  ///< lysis: factor on cortex_young, bulk_modulus and adhesion meanwhile
+  std::vector<ExchangeEntry> exchange;  ///< with substances
   DcmBlock dcm;
   CbmBlock cbm;
 };
@@ -86,6 +88,7 @@ struct FrictionBlock {            ///< friction but that between deformable cell
 
 /// Active forces. leader_slice = 0: the cell diameter.
 struct MotilityBlock : coupling::Motility {
+  std::string leader_signal;  ///< substance whose gradient leaders follow; empty: the vein axis
   MotilityBlock() { leader_slice = 0; }
 };
 
@@ -237,6 +240,9 @@ struct Scene {
   std::map<std::string, CellType> cell_types;
   CellsBlock cells;
   LifeBlock life;
+  std::vector<SubstanceBlock> substances;
+  SubstanceGridBlock substance_grid;
+  std::vector<SignalRuleEntry> rules;
   std::vector<Region> zoom;  ///< union of regions
   std::optional<MovingZoomBlock> moving_zoom;
   Vec3 axis_point = Vec3::Zero();  ///< the vein axis is vertical (z) through this point

@@ -290,6 +290,7 @@ void check_rules(const Scene& scene, Report& report, SceneRule of_experiment) {
   check_cells(scene, report);
   check_zoom(scene, report);
   check_life(scene, report);
+  check_substances(scene, report);
   check_lobule(scene, report);
   check_boundary(scene, report);
 }

@@ -21,6 +21,9 @@ void check_times(const Scene& scene, Report& report);
 /// Checks growth, division and death. @pre called by check_rules
 void check_life(const Scene& scene, Report& report);
 
+/// Checks substances, exchange and responses to them. @pre called by check_rules
+void check_substances(const Scene& scene, Report& report);
+
 /// Checks that the times of a course, the list at `pointer`, never fall.
 void check_course(const Schedule& course, const std::string& pointer, Report& report);
 

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "contact/jkr.hpp"
 #include "contact/wall_mesh.hpp"
 #include "coupling/generate/pipette_surface.hpp"
 #include "coupling/generate/vessel_surface.hpp"
+#include "coupling/substances/fields.hpp"
 #include "coupling/world/cell.hpp"
 
 namespace acinus::runs {
@@ -176,6 +178,25 @@ geometry::Surface draw_boundary(const contact::Boundary& boundary) {
     drawn = coupling::make_vessel_surface(boundary.vessels.network).surface;
   for (const contact::Pipette& p : boundary.pipettes) coupling::add_pipette_surface(p, drawn);
   return drawn;
+}
+
+void add_concentrations(const coupling::World& world, const Snapshot& snapshot, io::Table& cells) {
+  const std::vector<std::vector<double>> mean = coupling::cell_concentrations(world);
+  if (mean.empty()) return;
+  const std::vector<std::vector<double>> rate = coupling::cell_exchange_rates(world);
+  const coupling::CellIndex index = coupling::index_cells(world.state);
+  const auto add = [&](const std::string& name, const std::string& unit,
+                       const std::vector<double>& value) {
+    io::Column column{name, unit, 1, {}};
+    for (const CellMeasure& c : snapshot.cells) column.value.push_back(value[index.at(c.id).index]);
+    cells.columns.push_back(std::move(column));
+  };
+  for (std::size_t k = 0; k < mean.size(); ++k) {
+    const auto& [name, unit] = std::tie(world.params.substances.substance[k].name,
+                                        world.params.substances.substance[k].unit);
+    add("concentration_" + name, unit, mean[k]);
+    add("exchange_" + name, (unit == "1" ? "" : unit + " ") + "um^3/s", rate[k]);
+  }
 }
 
 io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,

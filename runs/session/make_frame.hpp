@@ -16,6 +16,10 @@ namespace acinus::runs {
 /// Triangulates vessels and pipettes for display.
 geometry::Surface draw_boundary(const contact::Boundary& boundary);
 
+/// Appends two columns per substance to the table of cells: the mean concentration in each cell,
+/// and its rate of exchange.
+void add_concentrations(const coupling::World& world, const Snapshot& snapshot, io::Table& cells);
+
 /// Fills the arrays of a frame.
 /// @param boundary  of draw_boundary()
 /// @pre take_snapshot() of the same moment

@@ -10,7 +10,9 @@
 #include "core/error.hpp"
 #include "core/parallel/clock.hpp"
 #include "dcm/contact/contact_bodies.hpp"
+#include "runs/assemble/build_substances.hpp"
 #include "runs/assemble/state_file.hpp"
+#include "runs/assemble/substance_file.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/skipped.hpp"
 #include "runs/session/summary.hpp"
@@ -68,6 +70,7 @@ Notes Recorder::resume() {
   coupling::World& world = simulation_.world();
   get_state(data, types_of(world.params), world.state);
   coupling::place_vessels(world.params.tree, world.state.tree, world.params.boundary.vessels);
+  check_substances(world.params.substances, world.state, data.source());
   simulation_.resize();
   get_totals(data, totals_);
   get_totals(data, life_);
@@ -82,6 +85,8 @@ Notes Recorder::resume() {
   io::RunFileCounts counts;
   visit(counts, [&](const char* name, std::int64_t& n) { n = data.count(name); });
   file_ = io::RunFile::open_for_append(run_file(), counts, file_options());
+  if (world.params.substances.exists())
+    fields_.emplace(options_.out, data.numbers("file/field_times"), scene_.output.compress);
   notes.info.push_back(
       fmt::format("resumed at {:.4g} h from {}", simulation_.time() / 3600, loaded.file));
   if (!loaded.warning.empty()) notes.warnings.push_back(loaded.warning);
@@ -107,7 +112,10 @@ Excess Recorder::write_frame(bool last) {
     observables = observe_frame({scene_, world, work, snapshot, audit}, observed_);
   if (drawn_boundary_.node.empty() || world.params.tree.exists())
     drawn_boundary_ = draw_boundary(world.params.boundary);
-  if (file_) file_->append(make_frame(world, work, snapshot, drawn_boundary_), observables);
+  io::Frame frame = make_frame(world, work, snapshot, drawn_boundary_);
+  add_concentrations(world, snapshot, frame.cells);
+  if (file_) file_->append(frame, observables);
+  write_fields(snapshot.time);
   last_frame_ = snapshot.time;
   if (audit.n_self_intersecting > 0)
     add_event("self_intersection",
@@ -117,6 +125,24 @@ Excess Recorder::write_frame(bool last) {
   const bool shrinks = excess.depth_um < excess_.depth_um && !last;
   excess_ = excess;
   return shrinks ? Excess{} : excess;
+}
+
+std::string Recorder::warn_of_outside() {
+  if (warned_of_outside_) return {};
+  const std::size_t n = find_cells_outside_fields(simulation_.world()).size();
+  if (n == 0) return {};
+  warned_of_outside_ = true;
+  return fmt::format(
+      "at t = {:.4g} h, {} cells are outside the box of the substances. They exchange with the "
+      "voxels nearest to them. Give a larger substance_grid.box.",
+      simulation_.time() / 3600, n);
+}
+
+void Recorder::write_fields(double time) {
+  const coupling::World& world = simulation_.world();
+  if (!file_ || !world.params.substances.exists()) return;
+  if (!fields_) fields_.emplace(options_.out, std::vector<double>{}, scene_.output.compress);
+  fields_->append(make_field_frame(world, time));
 }
 
 void Recorder::write_series(const coupling::StepResult& step) {
@@ -161,6 +187,7 @@ io::CheckpointData Recorder::make_checkpoint() {
   put_observed_run(observed_, data);
   data.put_number("file/last_frame", last_frame_);
   data.put_number("file/excess", excess_.depth_um);
+  if (fields_) data.put("file/field_times", fields_->times());
   const io::RunFileCounts counts = file_->counts();
   visit(counts, [&](const char* name, std::int64_t n) { data.put_count(name, n); });
   return data;

@@ -12,6 +12,7 @@
 #include "core/parallel/clock.hpp"
 #include "coupling/simulation.hpp"
 #include "geometry/surface.hpp"
+#include "io/field_file.hpp"
 #include "io/run_file.hpp"
 #include "runs/assemble/notes.hpp"
 #include "runs/experiments/observe.hpp"
@@ -59,6 +60,8 @@ class Recorder {
   double last_frame() const { return last_frame_; }  ///< time of the last frame, s since t = 0
   /// Reason why the frames so far complete the experiment; empty if they do not.
   std::string completion_reason() const { return why_over(scene_.experiment, observed_.measures); }
+  /// Warning of cells that have left the box of the fields; empty: none, or warned before.
+  std::string warn_of_outside();
   bool has_frame() const { return last_frame_ > kNoFrame; }
   /// Unresolvable overlaps of the last frame.
   const Excess& excess() const { return excess_; }
@@ -79,15 +82,18 @@ class Recorder {
   std::string run_file() const { return options_.out + "/run.vtkhdf"; }
   io::RunFileOptions file_options() const;
   io::CheckpointData make_checkpoint();
+  void write_fields(double time);
 
   const Scene& scene_;
   const RunOptions& options_;
   coupling::Simulation& simulation_;
   std::optional<StaticBodies> static_bodies_;  ///< prepared with the first frame
   geometry::Surface drawn_boundary_;
-  std::optional<io::RunFile> file_;  ///< none on processes that do not write
+  std::optional<io::RunFile> file_;       ///< none on processes that do not write
+  std::optional<io::FieldFiles> fields_;  ///< none without substances, or as above
   RunTotals totals_;
   LifeTotals life_;
+  bool warned_of_outside_ = false;
   ObservedRun observed_;
   Notes notes_;
   Attempts before_;  ///< attempts that this one continues

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "io/field_file.hpp"
 #include "runs/scene/differences.hpp"
 #include "runs/scene/entries.hpp"
 
@@ -18,17 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kResultFiles{"run.vtkhdf",
-                                  "run.vtkhdf.sums",
-                                  "run.vtkhdf.journal",
-                                  "run.vtkhdf.damaged",
-                                  "run.vtkhdf.damaged.sums",
-                                  "run.xmf",
-                                  "summary.json",
-                                  "checkpoint.h5",
-                                  "checkpoint.prev.h5",
-                                  "start.h5",
-                                  "run.log"};
+constexpr std::array kResultFiles{
+    "run.vtkhdf",         "run.vtkhdf.sums",         "run.vtkhdf.journal",
+    "run.vtkhdf.damaged", "run.vtkhdf.damaged.sums", "run.xmf",
+    "summary.json",       "checkpoint.h5",           "checkpoint.prev.h5",
+    "start.h5",           "fields.vtkhdf.series",    "run.log"};
 
 /// Lock file held while a run writes in the folder. It is never removed: two processes could
 /// otherwise hold two files of that name.
@@ -95,8 +90,10 @@ io::FileLock prepare_folder(const std::string& folder, const RunOptions& options
   std::optional<io::FileLock> lock = io::FileLock::try_take(lock_file(folder), 1);
   if (!lock) throw being_written(folder);
   check_use(folder, options);
-  if (options.overwrite)
+  if (options.overwrite) {
     for (const char* f : kResultFiles) fs::remove(fs::path(folder) / f, failed);
+    fs::remove_all(fs::path(folder) / io::FieldFiles::kFolder, failed);
+  }
   return std::move(*lock);
 }
 

@@ -175,6 +175,7 @@ void SceneRun::end_phase(const std::string& what) {
 /// Writes a frame. Overlaps of the first frame are reported at once, since the run may stop because
 /// of them hours later.
 void SceneRun::write_frame(bool last) {
+  if (const std::string text = recorder_.warn_of_outside(); !text.empty()) warn(text);
   const bool first = !recorder_.has_frame();
   excess_ = recorder_.write_frame(last);
   const Excess& start = recorder_.excess();

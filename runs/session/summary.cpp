@@ -105,6 +105,26 @@ void add_errors(const SummaryInput& in, OrderedJson& j) {
   j["self_intersecting_cells"] = static_cast<int>(t.self_intersecting);
 }
 
+/// Amounts of every substance: in the box at the end, gained and lost since t = 0.
+OrderedJson list_substances(const coupling::World& world) {
+  OrderedJson list = OrderedJson::object();
+  const coupling::SubstanceParams& p = world.params.substances;
+  for (std::size_t k = 0; k < p.substance.size(); ++k) {
+    const coupling::SubstanceState& field = world.state.substance[k];
+    const auto [low, high] = std::ranges::minmax(field.concentration);
+    list[p.substance[k].name] = {
+        {"unit", p.substance[k].unit},
+        {"lowest", finite_number(low)},
+        {"highest", finite_number(high)},
+        {"amount_um3", finite_number(substances::total_amount(p.grid, field.concentration))},
+        {"secreted_um3", finite_number(field.secreted)},
+        {"through_faces_um3", finite_number(field.entered)},
+        {"from_sources_um3", finite_number(field.supplied)},
+        {"decayed_um3", finite_number(field.decayed)}};
+  }
+  return list;
+}
+
 OrderedJson list_measures(const SummaryInput& in) {
   OrderedJson measures = OrderedJson::object();
   for (const auto& [name, values] : in.measures) {
@@ -142,6 +162,7 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
   j["vessel_length_um"] =
       finite_number(geometry::total_length(in.world.params.boundary.vessels.network));
   add_errors(in, j);
+  if (in.world.params.substances.exists()) j["substances"] = list_substances(in.world);
   j["skipped"] = in.skipped;
   j["notes"] = in.notes.info;
   j["warnings"] = in.notes.warnings;

@@ -45,6 +45,8 @@ CASES = {
                        "vessels.contact=mesh", "--until", "5 min"],
     "hybrid_life": [os.path.join(HERE, "hybrid_life.json")],
     "moving_zoom": [os.path.join(HERE, "moving_zoom.json")],
+    "substances": [os.path.join(HERE, "substances.json")],
+    "regeneration_morphogen": ["regeneration_morphogen.json", "--set", "model=cbm", "--until", "12 h"],
     "calibration": [os.path.join(HERE, "calibration.json")],
 }
 

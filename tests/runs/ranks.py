@@ -28,6 +28,7 @@ CASES = {
     "cells": [os.path.join(SCENES, "spheroid.json"), "--until-cells", "10"],
     "spheres": [os.path.join(SCENES, "spheroid_cbm.json"), "--until-cells", "300"],
     "hybrid": [os.path.join(SCENES, "lobule_hybrid.json"), "--set", "start_up.growth_time=2 h", "--until", "10 min"],
+    "substances": [os.path.join(GOLDEN, "substances.json"), "--until", "1 h"],
     "life": [os.path.join(GOLDEN, "hybrid_life.json")],
     "zoom": [os.path.join(GOLDEN, "moving_zoom.json")],
     "maugis_hybrid": [os.path.join(GOLDEN, "maugis_hybrid.json"), "--until", "15 min"],

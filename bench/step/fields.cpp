@@ -1,0 +1,101 @@
+#include "bench/step/fields.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/parallel/clock.hpp"
+#include "substances/diffusion.hpp"
+
+namespace acinus::bench {
+namespace {
+
+constexpr int kFieldVoxels = 100;     // along an edge of the box
+constexpr double kFieldSpacing = 10;  // um
+constexpr double kFieldStep = 60;     // s
+constexpr int kFieldWarmUp = 5, kFieldSteps = 9;
+
+struct FieldCase {
+  std::string name;
+  double diffusion, decay;
+  substances::Face face;
+  double start;
+  substances::Exchange exchange;
+};
+
+/// Cells of a ball in the middle of the box, on a lattice.
+std::vector<Vec3> ball_of_cells(double spacing, double radius) {
+  const Vec3 middle = Vec3::Constant(0.5 * kFieldVoxels * kFieldSpacing);
+  const int n = static_cast<int>(radius / spacing);
+  std::vector<Vec3> center;
+  for (int k = -n; k <= n; ++k)
+    for (int j = -n; j <= n; ++j)
+      for (int i = -n; i <= n; ++i)
+        if (const Vec3 x = spacing * Vec3(i, j, k); x.norm() <= radius)
+          center.push_back(middle + x);
+  return center;
+}
+
+BenchRow measure_field(const FieldCase& c) {
+  constexpr double kCellRadius = 12, kTissueRadius = 290;
+  const substances::Grid grid = substances::make_grid(
+      {Vec3::Zero(), Vec3::Constant(kFieldVoxels * kFieldSpacing)}, kFieldSpacing);
+  substances::Medium medium;
+  medium.diffusion = c.diffusion;
+  medium.decay = c.decay;
+  medium.face.fill(c.face);
+  std::vector<Vec3> cell = ball_of_cells(22, kTissueRadius);
+  const std::vector<substances::Exchange> exchange(cell.size(), c.exchange);
+  substances::Solver solver;
+  solver.resize(grid.n);
+  std::vector<double> field(grid.n_voxel(), c.start), wall, shares_wall;
+  double iterations = 0, solves = 0;
+  for (int step = 0; step < kFieldWarmUp + kFieldSteps; ++step) {
+    for (std::size_t k = 0; k < cell.size(); ++k)  // cells move a little in every step
+      cell[k] += 0.05 * Vec3(std::sin(k), std::cos(k), std::sin(2.0 * static_cast<double>(k)));
+    const double start = cpu_seconds();
+    substances::Shares shares;
+    for (const Vec3& x : cell) shares.add(substances::share_sphere(grid, x, kCellRadius));
+    const double placed = cpu_seconds();
+    const substances::Budget budget = substances::advance(grid, medium, {shares, exchange},
+                                                          {kFieldStep, 0, 1e-6}, solver, field, {});
+    if (step < kFieldWarmUp) continue;
+    wall.push_back(cpu_seconds() - placed);
+    shares_wall.push_back(placed - start);
+    iterations += static_cast<double>(budget.iterations) / kFieldSteps;
+    solves += static_cast<double>(budget.solves) / kFieldSteps;
+  }
+  std::ranges::sort(wall);
+  std::ranges::sort(shares_wall);
+  BenchRow row{c.name,
+               static_cast<int>(cell.size()),
+               {{"cpu_ms_per_step", 1e3 * wall[kFieldSteps / 2]},
+                {"shares_ms_per_step", 1e3 * shares_wall[kFieldSteps / 2]},
+                {"solves_per_step", solves},
+                {"iterations_per_step", iterations}}};
+  print_row(row);
+  return row;
+}
+
+}  // namespace
+
+BenchTable bench_fields(const BenchOptions&) {
+  using substances::FaceKind;
+  BenchTable table;
+  substances::Exchange secretes, linear, saturates;
+  secretes.secretion = 0.01;
+  linear.uptake = 0.17;
+  saturates.uptake_max = 20;
+  saturates.half_max = 1;
+  const substances::Face closed{}, held{FaceKind::kFixed, 38, 0};
+  for (const FieldCase& c :
+       {FieldCase{"morphogen, D dt / h^2 = 6", 10, 1e-3, closed, 0, secretes},
+        FieldCase{"oxygen, linear uptake, D dt / h^2 = 1200", 2000, 0, held, 38, linear},
+        FieldCase{"oxygen, Michaelis-Menten uptake, D dt / h^2 = 1200", 2000, 0, held, 38,
+                  saturates}})
+    table.push_back(measure_field(c));
+  return table;
+}
+
+}  // namespace acinus::bench

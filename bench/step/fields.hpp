@@ -1,0 +1,12 @@
+#pragma once
+/// Cost of one step of the fields of substances.
+
+#include "bench/output/bench_table.hpp"
+
+namespace acinus::bench {
+
+/// A million voxels with a tissue of 10,000 spheres in them: a morphogen, oxygen with linear and
+/// with Michaelis-Menten uptake, over a step of 60 s.
+BenchTable bench_fields(const BenchOptions& options);
+
+}  // namespace acinus::bench

@@ -1,0 +1,79 @@
+#include "io/field_file.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <span>
+#include <utility>
+
+#include "core/error.hpp"
+#include "io/disk.hpp"
+#include "io/hdf5.hpp"
+
+namespace acinus::io {
+namespace {
+namespace fs = std::filesystem;
+
+void write_frame(const std::string& path, const FieldFrame& frame, bool compress) {
+  h5::File file = h5::File::create(path, h5::Format::kChecked);
+  file.write_attribute("/", "schema", "acinus/fields");
+  file.write_attribute("/", "schema_version", std::array<std::int64_t, 2>{1, 0});
+  file.create_group("/VTKHDF");
+  file.write_attribute("/VTKHDF", "Version", std::array<std::int64_t, 2>{1, 0});
+  file.write_attribute("/VTKHDF", "Type", "ImageData");
+  file.write_attribute("/VTKHDF", "WholeExtent",
+                       std::array<std::int64_t, 6>{0, frame.n[0], 0, frame.n[1], 0, frame.n[2]});
+  const auto three = [](const Vec3& v) { return std::array<double, 3>{v.x(), v.y(), v.z()}; };
+  file.write_numbers("/VTKHDF", "Origin", three(frame.origin));
+  file.write_numbers("/VTKHDF", "Spacing", three(frame.spacing));
+  file.write_numbers("/VTKHDF", "Direction", std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1});
+  file.create_group("/VTKHDF/CellData");
+  for (const VoxelField& f : frame.field) {
+    const std::string name = "/VTKHDF/CellData/" + f.name;
+    file.write_volume(name, {frame.n[2], frame.n[1], frame.n[0]}, f.value, compress);
+    file.write_attribute(name, "unit", f.unit);
+  }
+  file.create_group("/VTKHDF/FieldData");
+  file.write_array<double>("/VTKHDF/FieldData/TimeValue", std::array<double, 1>{frame.time_s});
+  file.write_attribute("/VTKHDF/FieldData/TimeValue", "unit", "s");
+  file.close();
+}
+
+}  // namespace
+
+FieldFiles::FieldFiles(std::string folder, std::vector<double> times, bool compress)
+    : folder_(std::move(folder)), times_(std::move(times)), compress_(compress) {
+  const fs::path frames = fs::path(folder_) / kFolder;
+  std::error_code failed;
+  fs::create_directories(frames, failed);
+  check(!failed,
+        fmt::format("{}: the folder cannot be made ({})", frames.string(), failed.message()),
+        Exit::kFileError);
+  for (std::size_t k = times_.size(); fs::remove(frames / frame_name(k), failed); ++k) continue;
+}
+
+std::string FieldFiles::frame_name(std::size_t number) {
+  return fmt::format("frame_{:06d}.vtkhdf", number);
+}
+
+void FieldFiles::append(const FieldFrame& frame) {
+  const std::string path = (fs::path(folder_) / kFolder / frame_name(times_.size())).string();
+  const std::string partial = path + ".tmp";
+  {
+    const RemoveUnlessMoved cleanup{partial};
+    write_frame(partial, frame, compress_);
+    replace_file(partial, path);
+  }
+  times_.push_back(frame.time_s);
+  write_series();
+}
+
+void FieldFiles::write_series() const {
+  std::string text = "{\n  \"file-series-version\": \"1.0\",\n  \"files\": [";
+  for (std::size_t k = 0; k < times_.size(); ++k)
+    text += fmt::format("{}\n    {{ \"name\": \"{}/{}\", \"time\": {} }}", k > 0 ? "," : "",
+                        kFolder, frame_name(k), times_[k]);
+  write_text_file((fs::path(folder_) / kSeries).string(), text + "\n  ]\n}\n");
+}
+
+}  // namespace acinus::io

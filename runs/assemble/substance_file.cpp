@@ -1,0 +1,87 @@
+#include "runs/assemble/substance_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runs/assemble/state_numbers.hpp"
+
+namespace acinus::runs {
+
+void put_substances(const coupling::State& s, io::CheckpointData& d) {
+  if (s.substance.empty()) return;
+  d.put_count("substances/count", std::ssize(s.substance));
+  for (std::size_t k = 0; k < s.substance.size(); ++k) {
+    const coupling::SubstanceState& field = s.substance[k];
+    const std::string name = fmt::format("substances/{}/", k);
+    d.put(name + "concentration", field.concentration);
+    d.put(name + "amounts",
+          std::vector{field.secreted, field.entered, field.supplied, field.decayed});
+  }
+  std::vector<Vec3> force, heading;
+  std::vector<double> motility;
+  for (const coupling::Guidance& g : s.guidance) {
+    motility.push_back(g.motility);
+    force.push_back(g.force);
+    heading.push_back(g.heading);
+  }
+  d.put("substances/guidance_motility", motility);
+  d.put("substances/guidance_force", flatten(force));
+  d.put("substances/guidance_heading", flatten(heading));
+}
+
+void get_substances(const io::CheckpointData& d, coupling::State& s) {
+  s.substance.clear();
+  s.guidance.clear();
+  if (!d.contains("substances/count")) return;
+  const std::int64_t n = d.count("substances/count");
+  for (std::int64_t k = 0; k < n; ++k) {
+    const std::string name = fmt::format("substances/{}/", k);
+    const std::vector<double>& amounts = d.numbers(name + "amounts");
+    check_same(d, name + "amounts", amounts.size(), 4);
+    s.substance.push_back(
+        {d.numbers(name + "concentration"), amounts[0], amounts[1], amounts[2], amounts[3]});
+  }
+  const std::vector<Vec3> force = unflatten_points(d.numbers("substances/guidance_force")),
+                          heading = unflatten_points(d.numbers("substances/guidance_heading"));
+  const std::vector<double>& motility = d.numbers("substances/guidance_motility");
+  const std::size_t n_cell = s.dcm.n_lane() + s.cbm.n_cell();
+  check_same(d, "substances/guidance_force", force.empty() ? n_cell : force.size(), n_cell);
+  check_same(d, "substances/guidance_motility", motility.size(), force.size());
+  check_same(d, "substances/guidance_heading", heading.size(), force.size());
+  for (std::size_t k = 0; k < force.size(); ++k)
+    s.guidance.push_back({motility[k], force[k], heading[k]});
+}
+
+void check_substances(const coupling::SubstanceParams& p, const coupling::State& s,
+                      const std::string& source) {
+  const auto need = [&](bool fine) {
+    check(fine,
+          fmt::format("{}: the fields of substances cannot be. The file is damaged or belongs to "
+                      "another scene; resume from the previous checkpoint or start anew.",
+                      source),
+          Exit::kFileError);
+  };
+  need(s.substance.size() == p.substance.size());
+  for (const coupling::SubstanceState& field : s.substance) {
+    need(field.concentration.size() == p.grid.n_voxel() &&
+         std::ranges::all_of(field.concentration, [](double c) { return std::isfinite(c); }));
+    for (const double amount : {field.secreted, field.entered, field.supplied, field.decayed})
+      need(std::isfinite(amount));
+  }
+  for (const coupling::Guidance& g : s.guidance)
+    need(std::isfinite(g.motility) && g.force.allFinite() && g.heading.allFinite());
+}
+
+io::FieldFrame make_field_frame(const coupling::World& world, double time) {
+  const coupling::SubstanceParams& p = world.params.substances;
+  io::FieldFrame frame{time, p.grid.low, p.grid.spacing, p.grid.n, {}};
+  for (std::size_t k = 0; k < p.substance.size(); ++k) {
+    const std::vector<double>& c = world.state.substance[k].concentration;
+    frame.field.push_back({p.substance[k].name, p.substance[k].unit, {c.begin(), c.end()}});
+  }
+  return frame;
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,252 @@
+/// Registry: substances, their exchange with cells, and the responses of cells.
+
+#include "runs/scene/registry_blocks.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using substances::FaceKind;
+
+void describe_face(Visitor& v, substances::Face& b) {
+  choice(v,
+         {.name = "kind",
+          .meaning = "no_flux: nothing passes; fixed: the concentration at the face is value; "
+                     "exchange: the flux into the box is coefficient x (value - concentration)"},
+         b.kind);
+  v.when(b.kind != FaceKind::kNoFlux, "kind = fixed, exchange", [&b](Visitor& w) {
+    w.real({.name = "value",
+            .meaning = "concentration at the face or beyond it",
+            .range = kNotNegative,
+            .required = true},
+           b.value);
+  });
+  v.when(b.kind == FaceKind::kExchange, "kind = exchange", [&b](Visitor& w) {
+    w.real({.name = "coefficient",
+            .meaning = "coefficient of exchange, the permeability of the face",
+            .dimension = kSpeed,
+            .unit = "um/s",
+            .range = kPositive,
+            .required = true},
+           b.coefficient);
+  });
+}
+
+void describe_face_entry(Visitor& v, FaceEntry& b) {
+  choice(v, {.name = "side", .meaning = "face of the box", .required = true}, b.side);
+  describe_face(v, b);
+}
+
+void describe_secretion(Visitor& v, double& secretion, double& saturation) {
+  v.real({.name = "secretion",
+          .meaning = "concentration secreted per time into the volume of the source",
+          .dimension = kRate,
+          .unit = "1/s",
+          .range = kNotNegative},
+         secretion);
+  real_or_auto(v,
+               {.name = "saturation",
+                .meaning = "concentration at which secretion ends: its rate is secretion x "
+                           "(1 - c / saturation)",
+                .range = kPositive,
+                .automatic = "secretion does not depend on the concentration"},
+               saturation);
+}
+
+void describe_source(Visitor& v, SourceEntry& b) {
+  block(v, {.name = "region", .meaning = "voxels with their centre in it are sources"}, b.region,
+        describe_region);
+  describe_secretion(v, b.secretion, b.saturation);
+}
+
+void describe_vessel_feed(Visitor& v, VesselFeed& b) {
+  v.real({.name = "concentration",
+          .meaning = "concentration in the blood",
+          .range = kNotNegative,
+          .required = true},
+         b.concentration);
+  v.real({.name = "permeability",
+          .meaning = "flux through the wall per area and difference of concentration",
+          .dimension = kSpeed,
+          .unit = "um/s",
+          .range = kPositive,
+          .required = true},
+         b.permeability);
+}
+
+constexpr Key kSupplyThen{
+    .name = "factor", .meaning = "factor at this time", .range = kNotNegative, .required = true};
+
+}  // namespace
+
+void describe_substance(Visitor& v, SubstanceBlock& b) {
+  v.text({.name = "name", .meaning = "name of the substance", .required = true, .is_name = true},
+         b.name);
+  v.text({.name = "unit",
+          .meaning = "unit of its concentrations, for files and plots: all concentrations of the "
+                     "scene are numbers in it"},
+         b.unit);
+  v.real({.name = "diffusion",
+          .meaning = "diffusion coefficient in the tissue",
+          .dimension = kDiffusion,
+          .unit = "um^2/s",
+          .range = kNotNegative,
+          .required = true},
+         b.diffusion);
+  v.real({.name = "decay",
+          .meaning = "rate of decay everywhere",
+          .dimension = kRate,
+          .unit = "1/s",
+          .range = kNotNegative},
+         b.decay);
+  v.real({.name = "initial", .meaning = "concentration at t = 0", .range = kNotNegative},
+         b.initial);
+  block(v, {.name = "boundary", .meaning = "condition at the faces of the box"}, b.boundary,
+        describe_face);
+  blocks(v,
+         {.name = "faces",
+          .meaning = "faces of the box with a condition of their own",
+          .item = "substance.faces"},
+         b.faces, describe_face_entry);
+  blocks(v,
+         {.name = "sources",
+          .meaning = "sources that stay in place, besides cells and vessels",
+          .item = "substance.sources"},
+         b.sources, describe_source);
+  blocks(v,
+         {.name = "course",
+          .meaning = "factor on the concentrations at faces and in vessels and on the secretion of "
+                     "sources, over time; [] = 1",
+          .item = "substance.course"},
+         b.course.entry, describe_course_point<kSupplyThen>);
+  optional_block(
+      v, {.name = "vessels", .meaning = "exchange with vessels, along their walls; null = none"},
+      b.vessels, describe_vessel_feed);
+}
+
+void describe_substance_grid(Visitor& v, SubstanceGridBlock& b) {
+  real_or_auto(
+      v,
+      {.name = "spacing",
+       .meaning = "longest edge of a voxel; at most the diameter of the smallest cell type",
+       .dimension = kLength,
+       .unit = "um",
+       .range = kPositive,
+       .automatic = "the radius of the smallest cell type"},
+      b.spacing);
+  v.box(
+      {.name = "box",
+       .meaning = "lowest and highest corner of the box of the fields; null = around the cells at "
+                  "t = 0, vessels and lobule, with the margin",
+       .dimension = kLength,
+       .unit = "um"},
+      b.box);
+  v.real({.name = "margin",
+          .meaning = "space between the cells and the faces of a box that is not given; walls "
+                     "along the axes end it",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kNotNegative},
+         b.margin);
+  real_or_auto(v,
+               {.name = "step",
+                .meaning = "longest step of the fields: the error in time is proportional to it",
+                .dimension = kTime,
+                .unit = "s",
+                .range = kPositive,
+                .automatic = "the step of the tissue"},
+               b.step);
+  v.real({.name = "tolerance",
+          .meaning = "residual of the fields' solver, relative to the right-hand side",
+          .range = {.low = 0, .high = 1e-2, .low_open = true}},
+         b.tolerance);
+}
+
+void describe_exchange(Visitor& v, ExchangeEntry& b) {
+  v.text({.name = "substance", .meaning = "name of the substance", .required = true}, b.substance);
+  describe_secretion(v, b.secretion, b.saturation);
+  v.real({.name = "uptake",
+          .meaning = "uptake per concentration, within the volume of the cell",
+          .dimension = kRate,
+          .unit = "1/s",
+          .range = kNotNegative},
+         b.uptake);
+  v.real({.name = "uptake_max",
+          .meaning = "largest rate of Michaelis-Menten uptake, concentration per time: the rate is "
+                     "uptake_max x c / (half_max + c)",
+          .dimension = kRate,
+          .unit = "1/s",
+          .range = kNotNegative},
+         b.uptake_max);
+  v.when(b.uptake_max > 0, "uptake_max > 0", [&b](Visitor& w) {
+    w.real({.name = "half_max",
+            .meaning = "concentration at which that uptake is half of its largest rate",
+            .range = kPositive,
+            .required = true},
+           b.half_max);
+  });
+  v.real({.name = "secretion_per_area",
+          .meaning = "concentration x length secreted per time by the surface of the cell",
+          .dimension = kSpeed,
+          .unit = "um/s",
+          .range = kNotNegative},
+         b.secretion_per_area);
+  v.real({.name = "uptake_per_area",
+          .meaning = "uptake per concentration by the surface of the cell",
+          .dimension = kSpeed,
+          .unit = "um/s",
+          .range = kNotNegative},
+         b.uptake_per_area);
+}
+
+void describe_signal_rule(Visitor& v, SignalRuleEntry& b) {
+  v.text({.name = "signal", .meaning = "name of the substance", .required = true}, b.substance);
+  choice(
+      v,
+      {.name = "behaviour",
+       .meaning = "what responds. growth: factor on the rate of growth, 0 = rest; death: rate at "
+                  "which cells die as cell.death says; motility: factor on cell.diffusion; "
+                  "chemotaxis: force along the gradient",
+       .required = true},
+      b.behaviour);
+  choice(v,
+         {.name = "direction",
+          .meaning = "increases: the response is c^power / (half_max^power + c^power), at the "
+                     "concentration c at the cell; decreases: 1 minus it",
+          .choices = "increases|decreases"},
+         b.decreases);
+  v.text({.name = "cell_type", .meaning = "cell type that responds; \"\" = all"}, b.cell_type);
+  v.real({.name = "half_max",
+          .meaning = "concentration of half the response",
+          .range = kPositive,
+          .required = true},
+         b.half_max);
+  v.real({.name = "power",
+          .meaning = "steepness of the response; a large one makes half_max a threshold",
+          .range = {.low = 0, .high = 1000, .low_open = true}},
+         b.power);
+  v.when(b.behaviour == coupling::Behaviour::kDeath, "behaviour = death", [&b](Visitor& w) {
+    w.real({.name = "rate",
+            .meaning = "rate of death at full response",
+            .dimension = kRate,
+            .unit = "1/h",
+            .range = kPositive,
+            .required = true},
+           b.rate);
+  });
+  v.when(b.behaviour == coupling::Behaviour::kChemotaxis, "behaviour = chemotaxis",
+         [&b](Visitor& w) {
+           w.real({.name = "force",
+                   .meaning = "force up the gradient at full response; negative: down",
+                   .dimension = kForce,
+                   .unit = "nN",
+                   .required = true},
+                  b.force);
+           w.real({.name = "sensitivity",
+                   .meaning = "relative difference of concentration across the cell at which the "
+                              "force is half of its largest",
+                   .range = kPositive},
+                  b.sensitivity);
+         });
+}
+
+}  // namespace acinus::runs

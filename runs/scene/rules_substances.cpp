@@ -1,0 +1,120 @@
+/// Rules of substances, exchange and the responses of cells.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/spelling.hpp"
+#include "runs/scene/quoted_quantity.hpp"
+#include "runs/scene/scene_rules.hpp"
+
+namespace acinus::runs {
+namespace {
+
+std::vector<std::string> substance_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const SubstanceBlock& s : scene.substances) names.push_back(s.name);
+  return names;
+}
+
+void check_substance_name(const Scene& scene, const std::string& name, const std::string& pointer,
+                          Report& report) {
+  const std::vector<std::string> names = substance_names(scene);
+  if (name.empty() || std::ranges::find(names, name) != names.end()) return;
+  if (names.empty()) {
+    report.add_relation({pointer, "/substances"}, "\"" + name + "\"",
+                        "is no substance: the scene has none. Give a block substances");
+    return;
+  }
+  report.add_relation(
+      {pointer, "/substances"}, "\"" + name + "\"",
+      "is no substance. " + did_you_mean(nearest_name(name, names),
+                                         fmt::format("Known: {}", fmt::join(names, ", "))));
+}
+
+void check_substance(const Scene& scene, std::size_t k, Report& report) {
+  const SubstanceBlock& s = scene.substances[k];
+  const std::string pointer = fmt::format("/substances/{}", k);
+  for (std::size_t other = 0; other < k; ++other)
+    if (scene.substances[other].name == s.name)
+      report.add_relation({pointer + "/name"}, "\"" + s.name + "\"",
+                          "another substance has this name");
+  std::set<BoxFace> sides;
+  for (std::size_t f = 0; f < s.faces.size(); ++f)
+    if (!sides.insert(s.faces[f].side).second)
+      report.add_relation({fmt::format("{}/faces/{}/side", pointer, f)},
+                          "\"" + name_of_choice(s.faces[f].side) + "\"",
+                          "another entry has this face");
+  for (std::size_t f = 0; f < s.sources.size(); ++f)
+    check_region(s.sources[f].region, fmt::format("{}/sources/{}/region", pointer, f), report);
+  check_course(s.course, pointer + "/course", report);
+  if (s.vessels && scene.vessels.file.empty() && !scene.lobule)
+    report.add_relation({pointer + "/vessels", "/vessels/file", "/lobule"}, "",
+                        "needs vessels: give /vessels/file or a lobule block");
+}
+
+void check_exchange(const Scene& scene, Report& report) {
+  for (const auto& [name, type] : scene.cell_types) {
+    std::set<std::string> seen;
+    for (std::size_t k = 0; k < type.exchange.size(); ++k) {
+      const ExchangeEntry& e = type.exchange[k];
+      const std::string pointer = fmt::format("/cell_types/{}/exchange/{}", name, k);
+      check_substance_name(scene, e.substance, pointer + "/substance", report);
+      if (!seen.insert(e.substance).second)
+        report.add_relation({pointer + "/substance"}, "\"" + e.substance + "\"",
+                            "another entry of this cell type has it");
+    }
+  }
+}
+
+void check_signal_rules(const Scene& scene, Report& report) {
+  for (std::size_t k = 0; k < scene.rules.size(); ++k) {
+    const SignalRuleEntry& r = scene.rules[k];
+    const std::string pointer = fmt::format("/rules/{}", k);
+    check_substance_name(scene, r.substance, pointer + "/signal", report);
+    if (r.cell_type.empty() || scene.cell_types.contains(r.cell_type)) continue;
+    std::vector<std::string> names;
+    for (const auto& [name, type] : scene.cell_types) names.push_back(name);
+    report.add_relation(
+        {pointer + "/cell_type", "/cell_types"}, "\"" + r.cell_type + "\"",
+        "unknown cell type. " + did_you_mean(nearest_name(r.cell_type, names),
+                                             fmt::format("Known: {}", fmt::join(names, ", "))));
+  }
+}
+
+void check_grid(const Scene& scene, Report& report) {
+  const SubstanceGridBlock& g = scene.substance_grid;
+  const std::string pointer = "/substance_grid";
+  for (const auto& [name, type] : scene.cell_types)
+    if (g.spacing > 2 * type.radius) {
+      report.add_relation({pointer + "/spacing", "/cell_types/" + name + "/radius"},
+                          quoted_length(g.spacing),
+                          fmt::format("is larger than a cell of type {}, {} across: its "
+                                      "surroundings would be those of its neighbours. Take at most "
+                                      "that, better half of it",
+                                      name, quoted_length(2 * type.radius)));
+      break;
+    }
+  if (!g.box) return;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!((*g.box)[0][axis] < (*g.box)[1][axis]))
+      report.add_relation(
+          {fmt::format("{}/box/0/{}", pointer, axis), fmt::format("{}/box/1/{}", pointer, axis)},
+          quoted_length((*g.box)[0][axis]),
+          fmt::format("must be below {}/box/1/{} = {}", pointer, axis,
+                      quoted_length((*g.box)[1][axis])));
+}
+
+}  // namespace
+
+void check_substances(const Scene& scene, Report& report) {
+  for (std::size_t k = 0; k < scene.substances.size(); ++k) check_substance(scene, k, report);
+  check_exchange(scene, report);
+  check_signal_rules(scene, report);
+  check_substance_name(scene, scene.motility.leader_signal, "/motility/leader_signal", report);
+  if (!scene.substances.empty()) check_grid(scene, report);
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,67 @@
+#pragma once
+/// Scene blocks of substances: fields, exchange with cells, responses of cells.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupling/world/region.hpp"
+#include "coupling/world/substance.hpp"
+
+namespace acinus::runs {
+
+/// Face of the box, in the order of substances::Medium::face.
+enum class BoxFace { kXLow, kXHigh, kYLow, kYHigh, kZLow, kZHigh };
+
+struct FaceEntry : substances::Face {
+  BoxFace side = BoxFace::kXLow;
+};
+
+/// Source that stays in place: secretion (1 - c / saturation) wherever a voxel's centre is in the
+/// region.
+struct SourceEntry {
+  coupling::Region region;
+  double secretion = 0;   ///< concentration / s
+  double saturation = 0;  ///< 0: none
+};
+
+/// Exchange of vessels along their walls: permeability (concentration - c) per area.
+struct VesselFeed {
+  double concentration = 0;
+  double permeability = 0;  ///< um/s
+};
+
+struct SubstanceBlock {
+  std::string name;
+  std::string unit = coupling::Substance{}.unit;
+  double diffusion = 0;  ///< um^2/s
+  double decay = 0;      ///< 1/s
+  double initial = 0;
+  Schedule course;            ///< factor on what the outside supplies; empty: 1
+  substances::Face boundary;  ///< of all faces of the box but those in `faces`
+  std::vector<FaceEntry> faces;
+  std::vector<SourceEntry> sources;
+  std::optional<VesselFeed> vessels;
+};
+
+struct SubstanceGridBlock {
+  double spacing = 0;                      ///< um; 0: the radius of the smallest cell type
+  std::optional<std::array<Vec3, 2>> box;  ///< empty: around cells, vessels and lobule
+  double margin = 100;                     ///< um, around them
+  double step = coupling::SubstanceParams{}.longest_step;  ///< s; 0: the step of the tissue
+  double tolerance = coupling::SubstanceParams{}.tolerance;
+};
+
+/// Exchange of a cell type with one substance.
+struct ExchangeEntry : coupling::CellExchange {
+  std::string substance;
+};
+
+/// Response of cells to a substance.
+struct SignalRuleEntry : coupling::SignalRule {
+  std::string substance;  ///< key "signal"
+  std::string cell_type;  ///< empty: all
+};
+
+}  // namespace acinus::runs

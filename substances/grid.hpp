@@ -1,0 +1,42 @@
+#pragma once
+/// Regular grid of voxels in a box.
+
+#include <array>
+#include <cstddef>
+
+#include "core/box.hpp"
+#include "core/vec.hpp"
+
+namespace acinus::substances {
+
+/// Voxels in storage order: x fastest, then y, then z.
+struct Grid {
+  Vec3 low = Vec3::Zero();      ///< um, corner with the smallest coordinates
+  Vec3 spacing = Vec3::Ones();  ///< um, edges of a voxel
+  std::array<int, 3> n{0, 0, 0};
+
+  std::size_t n_voxel() const {
+    return static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]) *
+           static_cast<std::size_t>(n[2]);
+  }
+  std::size_t index(int i, int j, int k) const {
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(n[1]) +
+            static_cast<std::size_t>(j)) *
+               static_cast<std::size_t>(n[0]) +
+           static_cast<std::size_t>(i);
+  }
+  double voxel_volume() const { return spacing.prod(); }
+  Vec3 high() const { return low + spacing.cwiseProduct(Vec3(n[0], n[1], n[2])); }
+  Box box() const { return {low, high()}; }
+  Vec3 center(int i, int j, int k) const {
+    return low + spacing.cwiseProduct(Vec3(i + 0.5, j + 0.5, k + 0.5));
+  }
+};
+
+/// Grid of a box with voxels no longer than `longest` along each axis, um.
+Grid make_grid(const Box& box, double longest);
+
+/// Number of voxels of make_grid, which may be too many for a grid.
+double count_voxels(const Box& box, double longest);
+
+}  // namespace acinus::substances

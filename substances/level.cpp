@@ -1,0 +1,260 @@
+#include "substances/level.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <type_traits>
+
+#include "substances/planes.hpp"
+
+namespace acinus::substances {
+namespace {
+
+/// Neighbours of a row across y and z, with the conductances to them per width along x.
+template <class T>
+struct Row {
+  const T* below_y;
+  const T* above_y;
+  const T* below_z;
+  const T* above_z;
+  T y_low, y_high, z_low, z_high;
+  T area_x;  ///< of faces across x
+};
+
+template <class T>
+Row<T> row_at(const Level<T>& l, const T* x, int j, int k) {
+  const Layout& at = l.layout;
+  const auto plane = static_cast<std::size_t>(at.n[1]) * at.stride;
+  const T* own = x + at.row(j, k);
+  const double wy = l.width[1][j], wz = l.width[2][k];
+  return {j > 0 ? own - at.stride : own,
+          j + 1 < at.n[1] ? own + at.stride : own,
+          k > 0 ? own - plane : own,
+          k + 1 < at.n[2] ? own + plane : own,
+          static_cast<T>(l.face[1][j] * wz),
+          static_cast<T>(l.face[1][j + 1] * wz),
+          static_cast<T>(l.face[2][k] * wy),
+          static_cast<T>(l.face[2][k + 1] * wy),
+          static_cast<T>(wy * wz)};
+}
+
+template <class T>
+ACINUS_INLINE LaneOf<T> spread(T s) {
+  return LaneOf<T>{s, s, s, s, s, s, s, s};
+}
+
+/// Flow into eight voxels from their neighbours.
+template <class T>
+ACINUS_INLINE LaneOf<T> inflow(const T* low, const T* high, const T* width, const Row<T>& r,
+                               const T* x, std::size_t i) {
+  const LaneOf<T> along =
+      load<T>(low + i) * load<T>(x + i - 1) + load<T>(high + i) * load<T>(x + i + 1);
+  const LaneOf<T> across =
+      spread(r.y_low) * load<T>(r.below_y + i) + spread(r.y_high) * load<T>(r.above_y + i) +
+      spread(r.z_low) * load<T>(r.below_z + i) + spread(r.z_high) * load<T>(r.above_z + i);
+  return spread(r.area_x) * along + load<T>(width + i) * across;
+}
+
+template <class T>
+using MaskOf =
+    std::conditional_t<std::is_same_v<T, float>,
+                       std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t)))),
+                       std::int64_t __attribute__((vector_size(kLanes * sizeof(std::int64_t))))>;
+
+template <class T>
+struct LevelRow {
+  std::size_t n;  ///< numbers, whole lanes
+  const T* low;
+  const T* high;
+  const T* width;
+};
+
+template <class T>
+LevelRow<T> level_row(const Level<T>& l) {
+  return {l.layout.stride - kLanes, l.face_low.data(), l.face_high.data(), l.width_x.data()};
+}
+
+/// Solves for the voxels of a row whose number along x has this parity.
+template <class T>
+ACINUS_INLINE void smooth_row_of(const LevelRow<T>& l, const Row<T>& r, const T* inverse,
+                                 const T* b, bool odd, T* x) {
+  const MaskOf<T> mask =
+      odd ? MaskOf<T>{0, -1, 0, -1, 0, -1, 0, -1} : MaskOf<T>{-1, 0, -1, 0, -1, 0, -1, 0};
+  for (std::size_t i = 0; i < l.n; i += kLanes) {
+    const LaneOf<T> value =
+        load<T>(inverse + i) * (load<T>(b + i) + inflow(l.low, l.high, l.width, r, x, i));
+    store(x + i, mask ? value : load<T>(x + i));
+  }
+}
+template <class T>
+ACINUS_INLINE void start_row_of(std::size_t n, const T* inverse, const T* b, bool odd, T* x) {
+  const MaskOf<T> mask =
+      odd ? MaskOf<T>{0, -1, 0, -1, 0, -1, 0, -1} : MaskOf<T>{-1, 0, -1, 0, -1, 0, -1, 0};
+  const LaneOf<T> zero = spread(T{0});
+  for (std::size_t i = 0; i < n; i += kLanes)
+    store(x + i, mask ? load<T>(inverse + i) * load<T>(b + i) : zero);
+}
+template <class T>
+ACINUS_INLINE double multiply_row_of(const LevelRow<T>& l, const Row<T>& r, const T* diagonal,
+                                     const T* x, T* y) {
+  Lane sum = lane_of(0);
+  for (std::size_t i = 0; i < l.n; i += kLanes) {
+    const LaneOf<T> own = load<T>(x + i);
+    const LaneOf<T> value = load<T>(diagonal + i) * own - inflow(l.low, l.high, l.width, r, x, i);
+    store(y + i, value);
+    sum += __builtin_convertvector(own, Lane) * __builtin_convertvector(value, Lane);
+  }
+  return sum_lanes<double>(sum);
+}
+template <class T>
+ACINUS_INLINE void residual_row_of(const LevelRow<T>& l, const Row<T>& r, const T* diagonal,
+                                   const T* b, const T* x, T* y) {
+  for (std::size_t i = 0; i < l.n; i += kLanes)
+    store(y + i, load<T>(b + i) - load<T>(diagonal + i) * load<T>(x + i) +
+                     inflow(l.low, l.high, l.width, r, x, i));
+}
+
+ACINUS_KERNEL void smooth_row(const LevelRow<float>& l, const Row<float>& r, const float* inverse,
+                              const float* b, bool odd, float* x) {
+  smooth_row_of(l, r, inverse, b, odd, x);
+}
+ACINUS_KERNEL void start_row(std::size_t n, const float* inverse, const float* b, bool odd,
+                             float* x) {
+  start_row_of(n, inverse, b, odd, x);
+}
+ACINUS_KERNEL double multiply_row(const LevelRow<double>& l, const Row<double>& r,
+                                  const double* diagonal, const double* x, double* y) {
+  return multiply_row_of(l, r, diagonal, x, y);
+}
+ACINUS_KERNEL void residual_row(const LevelRow<float>& l, const Row<float>& r,
+                                const float* diagonal, const float* b, const float* x, float* y) {
+  residual_row_of(l, r, diagonal, b, x, y);
+}
+ACINUS_KERNEL void residual_row(const LevelRow<double>& l, const Row<double>& r,
+                                const double* diagonal, const double* b, const double* x,
+                                double* y) {
+  residual_row_of(l, r, diagonal, b, x, y);
+}
+
+/// Updates the voxels of one colour in plane k. Colour 0: i + j + k even.
+void smooth_plane(const Level<float>& l, const float* b, float* x, int k, int colour,
+                  bool from_zero) {
+  const LevelRow<float> row = level_row(l);
+  for (int j = 0; j < l.layout.n[1]; ++j) {
+    const std::size_t at = l.layout.row(j, k);
+    const bool odd = ((j + k + colour) & 1) != 0;
+    if (from_zero)
+      start_row(row.n, l.inverse.data() + at, b + at, odd, x + at);
+    else
+      smooth_row(row, row_at(l, x, j, k), l.inverse.data() + at, b + at, odd, x + at);
+  }
+}
+
+}  // namespace
+
+Layout make_layout(const std::array<int, 3>& n) {
+  Layout layout;
+  layout.n = n;
+  const auto lanes = static_cast<std::size_t>((n[0] + kLanes - 1) / kLanes);
+  layout.stride = kLanes * (lanes + 1);
+  layout.size = layout.row(0, n[2]) + kLanes;
+  return layout;
+}
+
+template <class T>
+void set_faces(const std::array<double, 3>& conductance, Level<T>& l) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::vector<double>& width = l.width[axis];
+    l.face[axis].assign(width.size() + 1, 0.0);
+    for (std::size_t i = 1; i < width.size(); ++i)
+      l.face[axis][i] = conductance[axis] * 2 / (width[i - 1] + width[i]);
+  }
+  l.face_low.assign(l.layout.stride, T{0});
+  l.face_high.assign(l.layout.stride, T{0});
+  l.width_x.assign(l.layout.stride, T{0});
+  for (std::size_t i = 0; i < l.width[0].size(); ++i) {
+    l.face_low[i] = static_cast<T>(l.face[0][i]);
+    l.face_high[i] = static_cast<T>(l.face[0][i + 1]);
+    l.width_x[i] = static_cast<T>(l.width[0][i]);
+  }
+}
+
+/// Only levels in single precision are smoothed.
+template <class T>
+constexpr bool kSmooths = std::is_same_v<T, float>;
+
+template <class T>
+void set_diagonal(Level<T>& l) {
+  const Layout& at = l.layout;
+  if (l.diagonal.size() != at.size) {
+    l.diagonal.assign(at.size, T{0});
+    if (kSmooths<T>) l.inverse.assign(at.size, T{0});
+  }
+  for_each_plane(at.n[2], at.n_voxel(), [&](int k) {
+    for (int j = 0; j < at.n[1]; ++j) {
+      const double wy = l.width[1][j], wz = l.width[2][k];
+      const double of_y = (l.face[1][j] + l.face[1][j + 1]) * wz;
+      const double of_z = (l.face[2][k] + l.face[2][k + 1]) * wy;
+      const std::size_t row = at.row(j, k);
+      const double* own = l.own.data() + static_cast<std::size_t>(at.n[0]) *
+                                             (static_cast<std::size_t>(k) * at.n[1] + j);
+      for (int i = 0; i < at.n[0]; ++i) {
+        const double of_x = (l.face[0][i] + l.face[0][i + 1]) * wy * wz;
+        const double sum = own[i] + of_x + l.width[0][i] * (of_y + of_z);
+        l.diagonal[row + i] = static_cast<T>(sum);
+        if constexpr (kSmooths<T>) l.inverse[row + i] = static_cast<T>(1 / sum);
+      }
+    }
+  });
+}
+
+double multiply(const Level<double>& l, const double* x, double* y) {
+  const LevelRow<double> row = level_row(l);
+  return sum_planes(l.layout.n[2], l.layout.n_voxel(), [&](int k) {
+    double sum = 0;
+    for (int j = 0; j < l.layout.n[1]; ++j) {
+      const std::size_t at = l.layout.row(j, k);
+      sum += multiply_row(row, row_at(l, x, j, k), l.diagonal.data() + at, x + at, y + at);
+    }
+    return sum;
+  });
+}
+
+void smooth(const Level<float>& l, const float* b, float* x, bool forward, bool from_zero) {
+  const int n = l.layout.n[2], first = forward ? 0 : 1, second = 1 - first;
+  const std::size_t n_voxel = l.layout.n_voxel();
+  if (thread_count() > 1 && n_voxel > kParallelVoxels) {
+    // Planes apart at a time: a row is written whole, and others read its second colour.
+    for (const int colour : {first, second})
+      for (const int start : {0, 1})
+        for_each_plane((n - start + 1) / 2, n_voxel, [&](int k) {
+          smooth_plane(l, b, x, 2 * k + start, colour, from_zero && colour == first);
+        });
+    return;
+  }
+  // The second colour follows one plane behind, while its neighbours are in the cache.
+  for (int k = 0; k < n; ++k) {
+    smooth_plane(l, b, x, k, first, from_zero);
+    if (k > 0) smooth_plane(l, b, x, k - 1, second, false);
+  }
+  smooth_plane(l, b, x, n - 1, second, false);
+}
+
+template <class T>
+void subtract_product(const Level<T>& l, const T* b, const T* x, T* r) {
+  const LevelRow<T> row = level_row(l);
+  for_each_plane(l.layout.n[2], l.layout.n_voxel(), [&](int k) {
+    for (int j = 0; j < l.layout.n[1]; ++j) {
+      const std::size_t at = l.layout.row(j, k);
+      residual_row(row, row_at(l, x, j, k), l.diagonal.data() + at, b + at, x + at, r + at);
+    }
+  });
+}
+
+template void set_faces(const std::array<double, 3>&, Level<float>&);
+template void set_faces(const std::array<double, 3>&, Level<double>&);
+template void set_diagonal(Level<float>&);
+template void set_diagonal(Level<double>&);
+template void subtract_product(const Level<float>&, const float*, const float*, float*);
+template void subtract_product(const Level<double>&, const double*, const double*, double*);
+
+}  // namespace acinus::substances

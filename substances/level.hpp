@@ -1,0 +1,67 @@
+#pragma once
+/// One grid of the multigrid method: the matrix (own + sum of face conductances) on the diagonal,
+/// -conductance beside it, and its kernels.
+///
+/// Rows along x are padded to whole lanes with a leading lane of zeros, so that kernels read
+/// neighbours without branches: at(i, j, k) = first + (k n_y + j) stride + i.
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "core/numbers/lanes.hpp"
+
+namespace acinus::substances {
+
+/// Places of padded voxels.
+struct Layout {
+  std::array<int, 3> n{0, 0, 0};
+  std::size_t stride = 0;  ///< numbers per row
+  std::size_t size = 0;    ///< numbers per array
+
+  std::size_t row(int j, int k) const {
+    return kLanes + (static_cast<std::size_t>(k) * static_cast<std::size_t>(n[1]) +
+                     static_cast<std::size_t>(j)) *
+                        stride;
+  }
+  std::size_t n_voxel() const {
+    return static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]) *
+           static_cast<std::size_t>(n[2]);
+  }
+};
+Layout make_layout(const std::array<int, 3>& n);
+
+/// Matrix on a grid whose voxels have widths relative to those of the finest grid.
+template <class T>
+struct Level {
+  Layout layout;
+  std::array<std::vector<double>, 3> width;     ///< per axis, [n]
+  std::array<std::vector<double>, 3> face;      ///< per axis, [n + 1]; conductance below voxel i
+                                                ///< per area of a fine face; 0 at both ends
+  std::vector<T> face_low, face_high, width_x;  ///< along x, [stride] in lanes
+  std::vector<double> own;  ///< [n_voxel], what is on the diagonal besides faces
+  std::vector<T> diagonal;  ///< [size]
+  std::vector<T> inverse;   ///< [size], 0 in the padding; single precision only
+};
+
+/// Sets the conductances, for equal widths 1 on the finest grid.
+/// @param conductance  per axis, D dt / h^2
+template <class T>
+void set_faces(const std::array<double, 3>& conductance, Level<T>& level);
+
+/// Sets the diagonal from `own` and the faces.
+template <class T>
+void set_diagonal(Level<T>& level);
+
+/// y = A x.   @return x . y, added plane by plane
+double multiply(const Level<double>& level, const double* x, double* y);
+
+/// Sweeps of red-black Gauss-Seidel. `forward`: first the even voxels, then the odd ones.
+/// @param x  [size], changed; from_zero: overwritten
+void smooth(const Level<float>& level, const float* b, float* x, bool forward, bool from_zero);
+
+/// r = b - A x
+template <class T>
+void subtract_product(const Level<T>& level, const T* b, const T* x, T* r);
+
+}  // namespace acinus::substances

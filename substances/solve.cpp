@@ -1,0 +1,135 @@
+#include "substances/solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "substances/planes.hpp"
+
+namespace acinus::substances {
+namespace {
+
+constexpr int kMostIterations = 200;
+
+ACINUS_KERNEL double dot_row(std::size_t n, const double* a, const float* b) {
+  Lane sum = lane_of(0);
+  for (std::size_t i = 0; i < n; i += kLanes) sum += load(a + i) * load<double>(b + i);
+  return sum_lanes<double>(sum);
+}
+
+/// p = z + beta p
+ACINUS_KERNEL void turn_row(std::size_t n, double beta, const float* z, double* p) {
+  for (std::size_t i = 0; i < n; i += kLanes)
+    store(p + i, load<double>(z + i) + beta * load(p + i));
+}
+
+/// x += alpha p, r -= alpha q, rf = scale r.   @return r . r
+ACINUS_KERNEL double advance_row(std::size_t n, double alpha, double scale, const double* p,
+                                 const double* q, double* x, double* r, float* rf) {
+  Lane sum = lane_of(0);
+  for (std::size_t i = 0; i < n; i += kLanes) {
+    store(x + i, load(x + i) + alpha * load(p + i));
+    const Lane value = load(r + i) - alpha * load(q + i);
+    store(r + i, value);
+    store(rf + i, scale * value);
+    sum += value * value;
+  }
+  return sum_lanes<double>(sum);
+}
+
+/// Numbers of plane k, its padding included: first and count, in whole lanes.
+struct Plane {
+  std::size_t first, n;
+};
+Plane plane_of(const Layout& l, int k) {
+  return {l.row(0, k), static_cast<std::size_t>(l.n[1]) * l.stride};
+}
+
+/// Copies voxels into padded rows or back, calling f(padded place, voxel).
+template <class F>
+void for_each_voxel(const Layout& l, const F& f) {
+  for_each_plane(l.n[2], l.n_voxel(), [&](int k) {
+    std::size_t voxel = static_cast<std::size_t>(k) * l.n[1] * l.n[0];
+    for (int j = 0; j < l.n[1]; ++j) {
+      const std::size_t row = l.row(j, k);
+      for (int i = 0; i < l.n[0]; ++i) f(row + i, voxel++);
+    }
+  });
+}
+
+}  // namespace
+
+void Solver::resize(const std::array<int, 3>& n) {
+  level_ = {};
+  level_.layout = make_layout(n);
+  for (int axis = 0; axis < 3; ++axis) level_.width[axis].assign(n[axis], 1.0);
+  multigrid_.resize(n);
+  const std::size_t size = level_.layout.size;
+  for (std::vector<double>* v : {&x_, &r_, &p_, &q_}) v->assign(size, 0.0);
+  rf_.assign(size, 0.0F);
+  z_.assign(size, 0.0F);
+}
+
+SolveResult Solver::solve(const StepSystem& system, double tolerance, std::span<double> c) {
+  const Layout& l = level_.layout;
+  level_.own = system.own;
+  set_faces(system.conductance, level_);
+  set_diagonal(level_);
+  multigrid_.set(system.own, system.conductance);
+
+  for_each_voxel(l, [&](std::size_t at, std::size_t voxel) {
+    x_[at] = c[voxel];
+    q_[at] = system.rhs[voxel];
+  });
+  const double norm = std::sqrt(dot_voxels(l.n[2], system.rhs, system.rhs));
+  SolveResult result;
+  if (!(norm > 0)) {
+    std::ranges::fill(c, 0.0);
+    result.converged = true;
+    return result;
+  }
+  const double scale = 1 / norm;
+  const auto norm_of = [](double rr) { return std::sqrt(std::max(rr, 0.0)); };
+  subtract_product(level_, q_.data(), x_.data(), r_.data());
+  double rr = sum_planes(l.n[2], l.n_voxel(), [&](int k) {
+    const auto [first, n] = plane_of(l, k);
+    return advance_row(n, 0, scale, p_.data() + first, q_.data() + first, x_.data() + first,
+                       r_.data() + first, rf_.data() + first);
+  });
+  double rz_before = 0;
+  while (norm_of(rr) > tolerance * norm && result.iterations < kMostIterations) {
+    multigrid_.apply(rf_.data(), z_.data());
+    const double rz = sum_planes(l.n[2], l.n_voxel(), [&](int k) {
+      const auto [first, n] = plane_of(l, k);
+      return dot_row(n, r_.data() + first, z_.data() + first);
+    });
+    const double beta = result.iterations == 0 ? 0 : rz / rz_before;
+    rz_before = rz;
+    for_each_plane(l.n[2], l.n_voxel(), [&](int k) {
+      const auto [first, n] = plane_of(l, k);
+      turn_row(n, beta, z_.data() + first, p_.data() + first);
+    });
+    const double pq = multiply(level_, p_.data(), q_.data());
+    if (!(pq > 0)) break;
+    const double alpha = rz / pq;
+    rr = sum_planes(l.n[2], l.n_voxel(), [&](int k) {
+      const auto [first, n] = plane_of(l, k);
+      return advance_row(n, alpha, scale, p_.data() + first, q_.data() + first, x_.data() + first,
+                         r_.data() + first, rf_.data() + first);
+    });
+    ++result.iterations;
+  }
+  result.residual = norm_of(rr) / norm;
+  result.converged = result.residual <= tolerance;
+
+  for_each_voxel(l, [&](std::size_t at, std::size_t voxel) { c[voxel] = x_[at]; });
+  // Faces cancel in the sum of A c.
+  const double held = dot_voxels(l.n[2], system.own, c);
+  const double wanted = sum_voxels(l.n[2], system.rhs);
+  const double factor = wanted / held;
+  if (factor > 0.5 && factor < 2) {
+    for (double& value : c) value *= factor;
+  }
+  return result;
+}
+
+}  // namespace acinus::substances

@@ -1,0 +1,98 @@
+/// Rules of substances, exchange and responses: messages of what cannot be.
+
+#include <gtest/gtest.h>
+
+#include "tests/runs/scene_texts.hpp"
+
+namespace acinus::runs {
+namespace {
+using namespace scene_texts;
+
+constexpr const char* kOxygen = R"("substances": [{"name": "oxygen", "diffusion": "2000 um^2/s"}])";
+
+/// One cell with these blocks.
+std::string scene_with(const std::string& blocks, const std::string& type = "") {
+  return R"({"time": {"end": "1 h"}, "cell_types": {"a": {"radius": "12 um")" +
+         (type.empty() ? type : ", " + type) +
+         R"(}}, "cells": {"model": "cbm", "list": [{"position": ["0 um", "0 um", "0 um"]}]}, )" +
+         blocks + "}";
+}
+
+/// What is wrong, without the place.
+std::string complaint(const std::string& text) {
+  const std::string all = failure(text);
+  const std::size_t at = all.find(" /");
+  return at == std::string::npos ? all : all.substr(at + 1);
+}
+
+TEST(SceneSubstances, KeysAreRead) {
+  const Scene scene = parse_scene(
+      scene_with(R"("substances": [{"name": "drug", "unit": "uM", "diffusion": "1e-10 m^2/s",
+        "decay": "0.36 1/h", "initial": 2,
+        "boundary": {"kind": "exchange", "value": 3, "coefficient": "2 um/s"},
+        "faces": [{"side": "z_high", "kind": "no_flux"}]}],
+        "substance_grid": {"spacing": "5 um", "step": "1 min"},
+        "rules": [{"signal": "drug", "behaviour": "death", "half_max": 4, "rate": "3.6 1/h"}])",
+                 R"("exchange": [{"substance": "drug", "uptake": "0.5 1/s"}])"),
+      "scene.json");
+  const SubstanceBlock& drug = scene.substances.at(0);
+  EXPECT_DOUBLE_EQ(drug.diffusion, 100);
+  EXPECT_DOUBLE_EQ(drug.decay, 1e-4);
+  EXPECT_EQ(drug.boundary.kind, substances::FaceKind::kExchange);
+  EXPECT_EQ(drug.faces.at(0).side, BoxFace::kZHigh);
+  EXPECT_EQ(scene.substance_grid.step, 60);
+  EXPECT_DOUBLE_EQ(scene.rules.at(0).rate, 1e-3);
+  EXPECT_EQ(scene.cell_types.at("a").exchange.at(0).uptake, 0.5);
+}
+
+TEST(SceneSubstancesErrors, NamesMustBeThoseOfSubstances) {
+  const std::string rule =
+      R"("rules": [{"signal": "oxigen", "behaviour": "growth", "half_max": 1}])";
+  EXPECT_EQ(complaint(scene_with(kOxygen + (", " + rule))),
+            "/rules/0/signal = \"oxigen\": is no substance. Did you mean \"oxygen\"?");
+  EXPECT_EQ(complaint(scene_with(rule)),
+            "/rules/0/signal = \"oxigen\": is no substance: the scene has none. Give a block "
+            "substances");
+  EXPECT_EQ(complaint(scene_with(kOxygen, R"("exchange": [{"substance": "glucose"}])")),
+            "/cell_types/a/exchange/0/substance = \"glucose\": is no substance. Known: oxygen");
+  EXPECT_EQ(complaint(scene_with(kOxygen + std::string(R"(, "motility": {"leader_signal": "x"})"))),
+            "/motility/leader_signal = \"x\": is no substance. Known: oxygen");
+  EXPECT_EQ(complaint(scene_with(
+                kOxygen + std::string(R"(, "rules": [{"signal": "oxygen", "behaviour": "growth",
+                  "half_max": 1, "cell_type": "b"}])"))),
+            "/rules/0/cell_type = \"b\": unknown cell type. Did you mean \"a\"?");
+}
+
+TEST(SceneSubstancesErrors, NoConcentrationIsNegative) {
+  EXPECT_EQ(complaint(scene_with(
+                R"("substances": [{"name": "x", "diffusion": "1 um^2/s", "initial": -1}])")),
+            "/substances/0/initial = -1: must be >= 0");
+  EXPECT_EQ(complaint(scene_with(R"("substances": [{"name": "x", "diffusion": "-1 um^2/s"}])")),
+            "/substances/0/diffusion = \"-1 um^2/s\": must be >= 0 um^2/s");
+}
+
+TEST(SceneSubstancesErrors, VoxelsAreNoLargerThanCells) {
+  EXPECT_EQ(
+      complaint(scene_with(kOxygen + std::string(R"(, "substance_grid": {"spacing": "30 um"})"))),
+      "/substance_grid/spacing = \"30 um\": is larger than a cell of type a, \"24 um\" "
+      "across: its surroundings would be those of its neighbours. Take at most that, better "
+      "half of it");
+  EXPECT_EQ(complaint(scene_with(kOxygen + std::string(R"(, "substance_grid": {"box":
+                  [["0 um", "5 um", "0 um"], ["9 um", "5 um", "9 um"]]})"))),
+            "/substance_grid/box/0/1 = \"5 um\": must be below /substance_grid/box/1/1 = \"5 um\"");
+}
+
+TEST(SceneSubstancesErrors, NothingIsSaidTwice) {
+  EXPECT_EQ(complaint(scene_with(R"("substances": [{"name": "x", "diffusion": "1 um^2/s"},
+              {"name": "x", "diffusion": "2 um^2/s"}])")),
+            "/substances/1/name = \"x\": another substance has this name");
+  EXPECT_EQ(complaint(scene_with(R"("substances": [{"name": "x", "diffusion": "1 um^2/s",
+              "faces": [{"side": "x_low"}, {"side": "x_low"}]}])")),
+            "/substances/0/faces/1/side = \"x_low\": another entry has this face");
+  EXPECT_EQ(complaint(scene_with(R"("substances": [{"name": "x", "diffusion": "1 um^2/s",
+              "vessels": {"concentration": 1, "permeability": "1 um/s"}}])")),
+            "/substances/0/vessels: needs vessels: give /vessels/file or a lobule block");
+}
+
+}  // namespace
+}  // namespace acinus::runs

@@ -1,0 +1,117 @@
+/// Runs with substances: resumed, with more threads, with both models, and what they leave.
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/runs/program.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// Eight cells that divide, starve in the middle and follow a gradient, some of them deformable.
+constexpr const char* kTissue = R"({
+  "seed": 3,
+  "time": {"end": "4 h", "step": "5 min", "tolerance": "0.1 um"},
+  "solver": {"tolerance": 0.02},
+  "cell_types": {"tumour": {"dcm": {"nodes": 42}, "adhesion": "1e-5 J/m^2",
+    "cycle": {"time": "3 h", "spread": 0.1, "mitosis": "30 min", "start": "random"},
+    "death": {"mode": "lysis", "duration": "40 min"},
+    "exchange": [{"substance": "oxygen", "uptake_max": "2 1/s", "half_max": 1},
+                 {"substance": "signal", "secretion": "1e-3 1/s", "saturation": 4, "uptake": "1e-4 1/s"}]}},
+  "cells": {"source": "clump", "count": 8},
+  "substances": [
+    {"name": "oxygen", "unit": "mmHg", "diffusion": "2000 um^2/s", "initial": 38,
+     "boundary": {"kind": "fixed", "value": 38}},
+    {"name": "signal", "diffusion": "20 um^2/s", "decay": "1e-3 1/s",
+     "faces": [{"side": "x_high", "kind": "exchange", "value": 2, "coefficient": "0.5 um/s"}],
+     "sources": [{"region": {"kind": "sphere", "center": ["60 um", "0 um", "0 um"], "radius": "20 um"},
+                  "secretion": "0.01 1/s"}]}],
+  "substance_grid": {"margin": "60 um", "step": "100 s"},
+  "rules": [
+    {"signal": "oxygen", "behaviour": "growth", "half_max": 20},
+    {"signal": "signal", "behaviour": "death", "half_max": 0.5, "rate": "0.05 1/h"},
+    {"signal": "signal", "behaviour": "chemotaxis", "half_max": 0.1, "force": "0.5 nN"}],
+  "contact": {"quadrature": "nodes"},
+  "motility": {"random": true, "grid": "10 min"},
+  "output": {"every": "40 min"}
+})";
+
+class SubstancesRun : public ProgramTest {
+ protected:
+  Json finish(const std::string& out, Words more) const {
+    const Outcome outcome = call(run_words("tissue.json", out, more));
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    return summary(out);
+  }
+  static Words with(Words first, const Words& more) {
+    first.insert(first.end(), more.begin(), more.end());
+    return first;
+  }
+  const Words zoom_{"--set",
+                    "model=zoom",
+                    "--set",
+                    R"(zoom=[{"kind": "half_space", "point": ["0 um", "0 um", "0 um"],)"
+                    R"( "normal": [1, 0, 0]}])",
+                    "--set",
+                    R"(moving_zoom={"every": "30 min", "stay": "30 min"})"};
+};
+
+TEST_F(SubstancesRun, ResumedIsBitForBit) {
+  write("tissue.json", kTissue);
+  for (const auto& [name, more] : {std::pair<std::string, Words>{"cbm", {"--set", "model=cbm"}},
+                                   {"zoom", zoom_},
+                                   {"sleep", {"--set", "model=cbm", "--set", "life.sleep=true"}}}) {
+    const Json end = finish(name + "_whole", more);
+    std::printf("%s: %s\n", name.c_str(), end["cells"].dump().c_str());
+    EXPECT_GE(end["cells"]["divisions"], 3);
+    finish(name + "_parts", with({"--until", "55 min"}, more));
+    finish(name + "_parts", with({"--resume", "--until", "2 h"}, more));
+    finish(name + "_parts", with({"--resume"}, more));
+    expect_same(name + "_whole", name + "_parts");
+    for (const char* frame : {"frame_000001.vtkhdf", "frame_000006.vtkhdf"})
+      EXPECT_EQ(io::read_text_file(path(name + "_whole/fields/" + frame)),
+                io::read_text_file(path(name + "_parts/fields/" + frame)));
+  }
+}
+
+TEST_F(SubstancesRun, ThreadsDoNotMatter) {
+  write("tissue.json", kTissue);
+  // Voxels so small that fields are shared among threads.
+  const Words fine = with({"--set", "substance_grid.spacing=4 um", "--until", "40 min"}, zoom_);
+  const Json one = finish("one", with({"--threads", "1"}, fine));
+  const Json two = finish("two", with({"--threads", "2"}, fine));
+  EXPECT_EQ(one["state_hash"], two["state_hash"]);
+}
+
+TEST_F(SubstancesRun, LeaveFieldsAndConcentrations) {
+  write("tissue.json", kTissue);
+  finish("run", {"--set", "model=cbm", "--until", "80 min"});
+  const Json series = Json::parse(io::read_text_file(path("run/fields.vtkhdf.series")));
+  ASSERT_EQ(series["files"].size(), 3U);
+  EXPECT_EQ(series["files"][1]["name"], "fields/frame_000001.vtkhdf");
+  EXPECT_EQ(series["files"][1]["time"], 2400);
+  EXPECT_FALSE(fs::exists(path("run/fields/frame_000003.vtkhdf")));
+  finish("run", {"--set", "model=cbm", "--until", "40 min", "--overwrite"});
+  EXPECT_FALSE(fs::exists(path("run/fields/frame_000002.vtkhdf")));
+}
+
+TEST_F(SubstancesRun, CheckTellsTheGrid) {
+  write("tissue.json", kTissue);
+  const Outcome checked = call({"check", "tissue.json"});
+  EXPECT_EQ(checked.code, 0);
+  EXPECT_NE(checked.text.find("substances (oxygen, signal): "), std::string::npos) << checked.text;
+  const Outcome large = call({"check", "tissue.json", "--set", "substance_grid.spacing=0.01 um"});
+  EXPECT_EQ(large.code, 2);
+  EXPECT_NE(large.text.find("GB of memory, and this machine has"), std::string::npos) << large.text;
+  const Outcome outside = call({"check", "tissue.json", "--set",
+                                R"(substance_grid.box=[["0 um", "0 um", "0 um"],)"
+                                R"( ["50 um", "50 um", "50 um"]])"});
+  EXPECT_EQ(outside.code, 2);
+  EXPECT_NE(outside.text.find("cells start outside the box of the fields (number "),
+            std::string::npos)
+      << outside.text;
+}
+
+}  // namespace
+}  // namespace acinus::runs

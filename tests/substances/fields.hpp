@@ -1,0 +1,70 @@
+#pragma once
+/// Grids, media and exact fields shared by the tests of substances.
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "substances/diffusion.hpp"
+
+namespace acinus::substances {
+
+/// Tolerance of the solver where another error is measured.
+inline constexpr double kTight = 1e-12;
+/// A step so long that only the steady state is left, s.
+inline constexpr double kSteady = 1e12;
+
+/// Bodies that exchange nothing.
+inline const Shares kNoShares{};
+inline Bodies no_bodies() { return {kNoShares, {}}; }
+
+inline Grid cube(double edge, int n) {
+  return make_grid({Vec3::Zero(), Vec3::Constant(edge)}, edge / n * (1 + 1e-12));
+}
+
+inline std::vector<double> sample(const Grid& g, const std::function<double(const Vec3&)>& f) {
+  std::vector<double> c;
+  for (int k = 0; k < g.n[2]; ++k)
+    for (int j = 0; j < g.n[1]; ++j)
+      for (int i = 0; i < g.n[0]; ++i) c.push_back(f(g.center(i, j, k)));
+  return c;
+}
+
+/// Largest difference from an exact field where `counts` is true.
+inline double largest_error(
+    const Grid& g, std::span<const double> c, const std::function<double(const Vec3&)>& exact,
+    const std::function<bool(const Vec3&)>& counts = [](const Vec3&) { return true; }) {
+  double largest = 0;
+  std::size_t v = 0;
+  for (int k = 0; k < g.n[2]; ++k)
+    for (int j = 0; j < g.n[1]; ++j)
+      for (int i = 0; i < g.n[0]; ++i, ++v)
+        if (const Vec3 x = g.center(i, j, k); counts(x))
+          largest = std::max(largest, std::abs(c[v] - exact(x)));
+  return largest;
+}
+
+/// Root mean square difference from an exact field where `counts` is true.
+inline double mean_error(const Grid& g, std::span<const double> c,
+                         const std::function<double(const Vec3&)>& exact,
+                         const std::function<bool(const Vec3&)>& counts) {
+  double sum = 0, n = 0;
+  std::size_t v = 0;
+  for (int k = 0; k < g.n[2]; ++k)
+    for (int j = 0; j < g.n[1]; ++j)
+      for (int i = 0; i < g.n[0]; ++i, ++v)
+        if (const Vec3 x = g.center(i, j, k); counts(x)) {
+          sum += (c[v] - exact(x)) * (c[v] - exact(x));
+          n += 1;
+        }
+  return std::sqrt(sum / n);
+}
+
+inline Budget run(const Grid& g, const Medium& m, const Bodies& bodies, const Advance& how,
+                  std::vector<double>& c, std::span<double> gained = {}) {
+  Solver solver;
+  solver.resize(g.n);
+  return advance(g, m, bodies, how, solver, c, gained);
+}
+
+}  // namespace acinus::substances
