@@ -18,24 +18,24 @@ void write_frame(const std::string& path, const FieldFrame& frame, bool compress
   h5::File file = h5::File::create(path, h5::Format::kChecked);
   file.write_attribute("/", "schema", "acinus/fields");
   file.write_attribute("/", "schema_version", std::array<std::int64_t, 2>{1, 0});
+  file.write_numbers("/", "time_s", std::array<double, 1>{frame.time_s});
   file.create_group("/VTKHDF");
   file.write_attribute("/VTKHDF", "Version", std::array<std::int64_t, 2>{1, 0});
   file.write_attribute("/VTKHDF", "Type", "ImageData");
-  file.write_attribute("/VTKHDF", "WholeExtent",
-                       std::array<std::int64_t, 6>{0, frame.n[0], 0, frame.n[1], 0, frame.n[2]});
+  file.write_attribute(
+      "/VTKHDF", "WholeExtent",
+      std::array<std::int64_t, 6>{0, frame.n[0] - 1, 0, frame.n[1] - 1, 0, frame.n[2] - 1});
   const auto three = [](const Vec3& v) { return std::array<double, 3>{v.x(), v.y(), v.z()}; };
-  file.write_numbers("/VTKHDF", "Origin", three(frame.origin));
+  file.write_numbers("/VTKHDF", "Origin", three(frame.origin + 0.5 * frame.spacing));
   file.write_numbers("/VTKHDF", "Spacing", three(frame.spacing));
   file.write_numbers("/VTKHDF", "Direction", std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1});
-  file.create_group("/VTKHDF/CellData");
+  // Values at points, the centres of voxels: VTK 9.1 cannot read those of cells.
+  file.create_group("/VTKHDF/PointData");
   for (const VoxelField& f : frame.field) {
-    const std::string name = "/VTKHDF/CellData/" + f.name;
+    const std::string name = "/VTKHDF/PointData/" + f.name;
     file.write_volume(name, {frame.n[2], frame.n[1], frame.n[0]}, f.value, compress);
     file.write_attribute(name, "unit", f.unit);
   }
-  file.create_group("/VTKHDF/FieldData");
-  file.write_array<double>("/VTKHDF/FieldData/TimeValue", std::array<double, 1>{frame.time_s});
-  file.write_attribute("/VTKHDF/FieldData/TimeValue", "unit", "s");
   file.close();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Fields of substances at the frames of a run: fields/frame_000000.vtkhdf, ... beside the run
-/// file, each a VTKHDF ImageData with one value per voxel, and fields.vtkhdf.series, which lists
+/// file, each a VTKHDF ImageData whose points are the centres of voxels, and fields.vtkhdf.series, which lists
 /// them with their times for ParaView.
 
 #include <array>

@@ -94,7 +94,9 @@ File File::create(const std::string& path, Format format) {
   const auto version = format == Format::kEarliest ? H5F_LIBVER_EARLIEST : H5F_LIBVER_V110;
   const auto newest = format == Format::kEarliest ? H5F_LIBVER_LATEST : H5F_LIBVER_V110;
   H5Pset_libver_bounds(access.id(), version, newest);
-  Handle handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
+  const Handle list(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_obj_track_times(list.id(), false);  // the same numbers make the same file
+  Handle handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, list.id(), access.id()), H5Fclose);
   if (!handle.valid()) fail(path, "create the file", state->error);
   return {path, std::move(state), std::move(handle), true};
 }
@@ -149,8 +151,9 @@ bool File::exists(const std::string& name) const {
 }
 
 void File::create_group(const std::string& name) {
-  const Handle group(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                     H5Gclose);
+  const Handle list(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_obj_track_times(list.id(), false);
+  const Handle group(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, list.id(), H5P_DEFAULT), H5Gclose);
   if (!group.valid()) fail_here("create group " + name);
 }
 

@@ -63,27 +63,31 @@ void for_each_exchange(const Bodies& bodies, const F& f) {
 /// One substance during one call.
 class Stepper {
  public:
-  Stepper(const Grid& grid, const Medium& medium, const Bodies& bodies, const Advance& how)
+  Stepper(const Grid& grid, const Medium& medium, const Bodies& bodies, const Advance& how,
+          Solver& solver)
       : grid_(grid),
         medium_(medium),
         bodies_(bodies),
         tolerance_(how.tolerance),
         supply_(how.supply),
-        rate_(face_rates(grid, medium)) {
+        rate_(face_rates(grid, medium)),
+        solver_(solver),
+        system_(solver.scratch().system),
+        before_(solver.scratch().before),
+        around_(solver.scratch().around) {
     for (const Exchange& e : bodies.exchange) nonlinear_ = nonlinear_ || e.uptake_max > 0;
     const std::size_t n = grid.n_voxel();
     system_.own.resize(n);
     system_.rhs.resize(n);
   }
 
-  void take(double step, Solver& solver, std::span<double> c, std::span<double> gained,
-            Budget& budget) {
+  void take(double step, std::span<double> c, std::span<double> gained, Budget& budget) {
     before_.assign(c.begin(), c.end());
     const double held = total_amount(grid_, c);
     for (int k = 0; k < (nonlinear_ ? kMostLinearisations : 1); ++k) {
-      around_.assign(c.begin(), c.end());
+      if (nonlinear_) around_.assign(c.begin(), c.end());
       assemble(step);
-      const SolveResult solved = solver.solve(system_, tolerance_, c);
+      const SolveResult solved = solver_.solve(system_, tolerance_, c);
       ++budget.solves;
       budget.iterations += solved.iterations;
       budget.converged = solved.converged;
@@ -97,6 +101,9 @@ class Stepper {
   }
 
  private:
+  /// Concentration at which rates are linearised; linear ones need none.
+  double around(std::size_t voxel) const { return nonlinear_ ? around_[voxel] : 0; }
+
   /// Matrix and right-hand side of backward Euler, Michaelis-Menten rates linearised at around_.
   void assemble(double step) {
     for (int axis = 0; axis < 3; ++axis)
@@ -115,7 +122,7 @@ class Stepper {
       }
     const double scale = step / grid_.voxel_volume();
     for_each_exchange(bodies_, [&](std::size_t, const Share& s, const Exchange& e) {
-      const Linear l = linearise(e, around_[s.voxel]);
+      const Linear l = linearise(e, around(s.voxel));
       system_.own[s.voxel] += scale * s.volume * l.loss;
       system_.rhs[s.voxel] += scale * s.volume * l.gain;
     });
@@ -136,7 +143,7 @@ class Stepper {
     const double volume = grid_.voxel_volume();
     double secreted = 0, entered = 0, supplied = 0;
     for_each_exchange(bodies_, [&](std::size_t body, const Share& s, const Exchange& e) {
-      const Linear l = linearise(e, around_[s.voxel]);
+      const Linear l = linearise(e, around(s.voxel));
       const double amount = step * s.volume * (l.gain - l.loss * c[s.voxel]);
       secreted += amount;
       if (!gained.empty()) gained[body] += amount;
@@ -159,8 +166,9 @@ class Stepper {
   double tolerance_, supply_;
   std::array<double, 6> rate_;
   bool nonlinear_ = false;
-  StepSystem system_;
-  std::vector<double> before_, around_;  ///< [n_voxel]
+  Solver& solver_;
+  StepSystem& system_;
+  std::vector<double>&before_, &around_;  ///< [n_voxel]
 };
 
 }  // namespace
@@ -189,11 +197,11 @@ Budget advance(const Grid& grid, const Medium& medium, const Bodies& bodies, con
   constexpr double kRoundOff = 1e-9;
   const double n =
       how.longest > 0 ? std::max(1.0, std::ceil(how.step / how.longest - kRoundOff)) : 1;
-  Stepper stepper(grid, medium, bodies, how);
+  Stepper stepper(grid, medium, bodies, how, solver);
   Budget budget;
   for (int k = 0; k < static_cast<int>(n); ++k) {
     Budget one;
-    stepper.take(how.step / n, solver, c, gained, one);
+    stepper.take(how.step / n, c, gained, one);
     budget.add(one);
   }
   return budget;

@@ -73,10 +73,12 @@ LevelRow<T> level_row(const Level<T>& l) {
   return {l.layout.stride - kLanes, l.face_low.data(), l.face_high.data(), l.width_x.data()};
 }
 
+// By value: stores to x could change what a reference names, and it would be read again each time.
+
 /// Solves for the voxels of a row whose number along x has this parity.
 template <class T>
-ACINUS_INLINE void smooth_row_of(const LevelRow<T>& l, const Row<T>& r, const T* inverse,
-                                 const T* b, bool odd, T* x) {
+ACINUS_INLINE void smooth_row_of(LevelRow<T> l, Row<T> r, const T* inverse, const T* b, bool odd,
+                                 T* x) {
   const MaskOf<T> mask =
       odd ? MaskOf<T>{0, -1, 0, -1, 0, -1, 0, -1} : MaskOf<T>{-1, 0, -1, 0, -1, 0, -1, 0};
   for (std::size_t i = 0; i < l.n; i += kLanes) {
@@ -94,8 +96,7 @@ ACINUS_INLINE void start_row_of(std::size_t n, const T* inverse, const T* b, boo
     store(x + i, mask ? load<T>(inverse + i) * load<T>(b + i) : zero);
 }
 template <class T>
-ACINUS_INLINE double multiply_row_of(const LevelRow<T>& l, const Row<T>& r, const T* diagonal,
-                                     const T* x, T* y) {
+ACINUS_INLINE double multiply_row_of(LevelRow<T> l, Row<T> r, const T* diagonal, const T* x, T* y) {
   Lane sum = lane_of(0);
   for (std::size_t i = 0; i < l.n; i += kLanes) {
     const LaneOf<T> own = load<T>(x + i);
@@ -106,8 +107,8 @@ ACINUS_INLINE double multiply_row_of(const LevelRow<T>& l, const Row<T>& r, cons
   return sum_lanes<double>(sum);
 }
 template <class T>
-ACINUS_INLINE void residual_row_of(const LevelRow<T>& l, const Row<T>& r, const T* diagonal,
-                                   const T* b, const T* x, T* y) {
+ACINUS_INLINE void residual_row_of(LevelRow<T> l, Row<T> r, const T* diagonal, const T* b,
+                                   const T* x, T* y) {
   for (std::size_t i = 0; i < l.n; i += kLanes)
     store(y + i, load<T>(b + i) - load<T>(diagonal + i) * load<T>(x + i) +
                      inflow(l.low, l.high, l.width, r, x, i));
@@ -183,7 +184,7 @@ template <class T>
 constexpr bool kSmooths = std::is_same_v<T, float>;
 
 template <class T>
-void set_diagonal(Level<T>& l) {
+void set_diagonal(std::span<const double> all, Level<T>& l) {
   const Layout& at = l.layout;
   if (l.diagonal.size() != at.size) {
     l.diagonal.assign(at.size, T{0});
@@ -195,8 +196,8 @@ void set_diagonal(Level<T>& l) {
       const double of_y = (l.face[1][j] + l.face[1][j + 1]) * wz;
       const double of_z = (l.face[2][k] + l.face[2][k + 1]) * wy;
       const std::size_t row = at.row(j, k);
-      const double* own = l.own.data() + static_cast<std::size_t>(at.n[0]) *
-                                             (static_cast<std::size_t>(k) * at.n[1] + j);
+      const double* own = all.data() + static_cast<std::size_t>(at.n[0]) *
+                                           (static_cast<std::size_t>(k) * at.n[1] + j);
       for (int i = 0; i < at.n[0]; ++i) {
         const double of_x = (l.face[0][i] + l.face[0][i + 1]) * wy * wz;
         const double sum = own[i] + of_x + l.width[0][i] * (of_y + of_z);
@@ -252,8 +253,8 @@ void subtract_product(const Level<T>& l, const T* b, const T* x, T* r) {
 
 template void set_faces(const std::array<double, 3>&, Level<float>&);
 template void set_faces(const std::array<double, 3>&, Level<double>&);
-template void set_diagonal(Level<float>&);
-template void set_diagonal(Level<double>&);
+template void set_diagonal(std::span<const double>, Level<float>&);
+template void set_diagonal(std::span<const double>, Level<double>&);
 template void subtract_product(const Level<float>&, const float*, const float*, float*);
 template void subtract_product(const Level<double>&, const double*, const double*, double*);
 

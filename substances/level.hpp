@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/numbers/lanes.hpp"
@@ -39,9 +40,8 @@ struct Level {
   std::array<std::vector<double>, 3> face;      ///< per axis, [n + 1]; conductance below voxel i
                                                 ///< per area of a fine face; 0 at both ends
   std::vector<T> face_low, face_high, width_x;  ///< along x, [stride] in lanes
-  std::vector<double> own;  ///< [n_voxel], what is on the diagonal besides faces
-  std::vector<T> diagonal;  ///< [size]
-  std::vector<T> inverse;   ///< [size], 0 in the padding; single precision only
+  std::vector<T> diagonal;                      ///< [size]
+  std::vector<T> inverse;                       ///< [size], 0 in the padding; single precision only
 };
 
 /// Sets the conductances, for equal widths 1 on the finest grid.
@@ -49,9 +49,10 @@ struct Level {
 template <class T>
 void set_faces(const std::array<double, 3>& conductance, Level<T>& level);
 
-/// Sets the diagonal from `own` and the faces.
+/// Sets the diagonal: the faces and `own`.
+/// @param own  [n_voxel] what is on the diagonal besides faces
 template <class T>
-void set_diagonal(Level<T>& level);
+void set_diagonal(std::span<const double> own, Level<T>& level);
 
 /// y = A x.   @return x . y, added plane by plane
 double multiply(const Level<double>& level, const double* x, double* y);

@@ -38,23 +38,27 @@ std::vector<double> join_widths(const std::vector<double>& fine, bool coarsens) 
   return width;
 }
 
-/// Adds the diagonal of the voxels in each coarse voxel.
-void join_own(const Level<float>& fine, const std::array<bool, 3>& halves, Level<float>& coarse) {
-  const auto &n = fine.layout.n, &m = coarse.layout.n;
-  coarse.own.assign(coarse.layout.n_voxel(), 0.0);
-  for_each_plane(m[2], fine.layout.n_voxel(), [&](int kk) {
-    const int first = halves[2] ? 2 * kk : kk,
-              last = halves[2] ? std::min(first + 2, n[2]) : kk + 1;
-    for (int k = first; k < last; ++k)
+/// Sums of the diagonal of the voxels in each coarse voxel.
+/// @param n, m  voxels of the fine and of the coarse grid
+std::vector<double> join_own(std::span<const double> fine, const std::array<int, 3>& n,
+                             const std::array<int, 3>& m) {
+  const auto parent = [&](int axis, int i) { return n[axis] == m[axis] ? i : i / 2; };
+  const auto row = [](const std::array<int, 3>& size, int j, int k) {
+    return static_cast<std::size_t>(size[0]) * (static_cast<std::size_t>(k) * size[1] + j);
+  };
+  std::vector<double> own(row(m, 0, m[2]), 0.0);
+  for_each_plane(m[2], fine.size(), [&](int coarse) {
+    const bool whole = n[2] == m[2];
+    const int first = whole ? coarse : 2 * coarse;
+    const int end = whole ? coarse + 1 : std::min(first + 2, n[2]);
+    for (int k = first; k < end; ++k)
       for (int j = 0; j < n[1]; ++j) {
-        const double* from = fine.own.data() + static_cast<std::size_t>(n[0]) *
-                                                   (static_cast<std::size_t>(k) * n[1] + j);
-        double* to =
-            coarse.own.data() + static_cast<std::size_t>(m[0]) *
-                                    (static_cast<std::size_t>(kk) * m[1] + (halves[1] ? j / 2 : j));
-        for (int i = 0; i < n[0]; ++i) to[halves[0] ? i / 2 : i] += from[i];
+        const double* from = fine.data() + row(n, j, k);
+        double* to = own.data() + row(m, parent(1, j), coarse);
+        for (int i = 0; i < n[0]; ++i) to[parent(0, i)] += from[i];
       }
   });
+  return own;
 }
 
 ACINUS_KERNEL void add_scaled(std::size_t n, float share, const float* from, float* to) {
@@ -138,6 +142,7 @@ void Multigrid::resize(const std::array<int, 3>& n) {
     transfer_.push_back(std::move(transfer));
     level_.push_back(std::move(next));
   }
+  own_.assign(level_.size(), {});
   residual_.assign(level_.size(), {});
   rhs_.assign(level_.size(), {});
   solution_.assign(level_.size(), {});
@@ -149,17 +154,14 @@ void Multigrid::resize(const std::array<int, 3>& n) {
   }
 }
 
-void Multigrid::set(const std::vector<double>& own, const std::array<double, 3>& conductance) {
-  level_.front().own = own;
+void Multigrid::set(std::span<const double> own, const std::array<double, 3>& conductance) {
   for (std::size_t k = 0; k < level_.size(); ++k) {
     if (k > 0) {
-      std::array<bool, 3> halves{};
-      for (int axis = 0; axis < 3; ++axis)
-        halves[axis] = level_[k].layout.n[axis] != level_[k - 1].layout.n[axis];
-      join_own(level_[k - 1], halves, level_[k]);
+      own_[k] = join_own(own, level_[k - 1].layout.n, level_[k].layout.n);
+      own = own_[k];
     }
     set_faces(conductance, level_[k]);
-    set_diagonal(level_[k]);
+    set_diagonal(own, level_[k]);
   }
 }
 

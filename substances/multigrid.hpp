@@ -2,6 +2,8 @@
 /// Multigrid preconditioner of diffusion: one symmetric V-cycle in single precision.
 
 #include <array>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "substances/level.hpp"
@@ -29,9 +31,7 @@ class Multigrid {
   /// Sets the matrix own + diffusion on all levels; coarser ones are discretised anew.
   /// @param own          [n_voxel]
   /// @param conductance  per axis, D dt / h^2
-  /// @param outside      conductance of the faces of the box per voxel face, [axis][side], as it is
-  ///                     part of `own`
-  void set(const std::vector<double>& own, const std::array<double, 3>& conductance);
+  void set(std::span<const double> own, const std::array<double, 3>& conductance);
 
   /// x = V-cycle(b) from zero.   @param b, x  [size] of the finest level
   void apply(const float* b, float* x);
@@ -44,6 +44,7 @@ class Multigrid {
 
   std::vector<Level<float>> level_;
   std::vector<std::array<Transfer, 3>> transfer_;   ///< [n_level - 1]
+  std::vector<std::vector<double>> own_;            ///< [n_level], unused on the finest
   std::vector<std::vector<float>> residual_;        ///< [n_level]
   std::vector<std::vector<float>> rhs_, solution_;  ///< [n_level], unused on the finest
 };

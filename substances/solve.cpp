@@ -71,9 +71,8 @@ void Solver::resize(const std::array<int, 3>& n) {
 
 SolveResult Solver::solve(const StepSystem& system, double tolerance, std::span<double> c) {
   const Layout& l = level_.layout;
-  level_.own = system.own;
   set_faces(system.conductance, level_);
-  set_diagonal(level_);
+  set_diagonal<double>(system.own, level_);
   multigrid_.set(system.own, system.conductance);
 
   for_each_voxel(l, [&](std::size_t at, std::size_t voxel) {

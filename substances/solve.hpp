@@ -24,6 +24,12 @@ struct SolveResult {
   double residual = 0;  ///< |rhs - A c| / |rhs|
 };
 
+/// Arrays of a step, kept for the next one.
+struct StepScratch {
+  StepSystem system;
+  std::vector<double> before, around;  ///< [n_voxel]
+};
+
 class Solver {
  public:
   void resize(const std::array<int, 3>& n);
@@ -33,9 +39,12 @@ class Solver {
   /// @param c  [n_voxel] initial guess; written
   SolveResult solve(const StepSystem& system, double tolerance, std::span<double> c);
 
+  StepScratch& scratch() { return scratch_; }
+
  private:
   Level<double> level_;
   Multigrid multigrid_;
+  StepScratch scratch_;
   std::vector<double> x_, r_, p_, q_;
   std::vector<float> rf_, z_;
 };

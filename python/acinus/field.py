@@ -44,7 +44,7 @@ def read_field(folder, name, frame):
     path, time = frames[frame]
     with open_run_file(path, "acinus/fields") as file:
         grid = file["VTKHDF"]
-        if name not in grid["CellData"]:
-            raise NoSuchItem(f"{path}: has no field {name}, but {', '.join(grid['CellData'])}")
-        values = grid["CellData"][name]
-        return Field(name, text_of(values.attrs["unit"]), time, values[...], grid.attrs["Origin"], grid.attrs["Spacing"])
+        if name not in grid["PointData"]:
+            raise NoSuchItem(f"{path}: has no field {name}, but {', '.join(grid['PointData'])}")
+        values, spacing = grid["PointData"][name], grid.attrs["Spacing"]
+        return Field(name, text_of(values.attrs["unit"]), time, values[...], grid.attrs["Origin"] - 0.5 * spacing, spacing)

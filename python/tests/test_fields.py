@@ -11,7 +11,7 @@ import acinus
 
 SCENE = """{
   "time": {"end": "20 min", "step": "5 min"},
-  "cell_types": {"a": {"exchange": [{"substance": "oxygen", "uptake": "0.5 1/s"}]}},
+  "cell_types": {"a": {"exchange": [{"substance": "oxygen", "uptake": "5 1/s"}]}},
   "cells": {"source": "clump", "count": 13, "model": "cbm"},
   "substances": [{"name": "oxygen", "unit": "mmHg", "diffusion": "2000 um^2/s", "initial": 38,
                   "boundary": {"kind": "fixed", "value": 38}}],
@@ -66,6 +66,21 @@ class Fields(unittest.TestCase):
             self.run_.field("oxygen", 3)
         with self.assertRaises(acinus.NoSuchItem):
             self.run_.field("glucose")
+
+
+    def test_vtk_reads_them(self):
+        try:
+            from vtkmodules.util.numpy_support import vtk_to_numpy
+            from vtkmodules.vtkIOHDF import vtkHDFReader
+        except ImportError:
+            self.skipTest("needs python3-vtk9")
+        reader = vtkHDFReader()
+        reader.SetFileName(os.path.join(self.run_.folder, "fields", "frame_000002.vtkhdf"))
+        reader.Update()
+        image, field = reader.GetOutput(), self.run_.field("oxygen")
+        self.assertEqual(image.GetDimensions(), (20, 24, 28))
+        np.testing.assert_allclose(image.GetOrigin(), field.origin + 0.5 * field.spacing)
+        np.testing.assert_array_equal(vtk_to_numpy(image.GetPointData().GetArray("oxygen")), field.value.ravel())
 
 
 if __name__ == "__main__":

@@ -40,7 +40,8 @@ std::vector<ObservableSection> make_sections() {
   common.insert(common.begin(), {"time", "s", "time after t = 0"});
   std::vector<ObservableSection> sections{
       {"", "every scene", common},
-      {"", "each wall, capsule and static mesh, by its name", wall_observables("NAME")}};
+      {"", "each wall, capsule and static mesh, by its name", wall_observables("NAME")},
+      {"", "each substance, by its name", substance_observables("NAME", "its own")}};
   const std::vector<std::string> names = split_choices(kChoices<Experiment>);
   for (std::size_t k = 0; k < names.size(); ++k) {
     const auto experiment = static_cast<Experiment>(k);
@@ -76,7 +77,7 @@ std::string explain_observables_markdown() {
       "[Studies](../howto/study.md) "
       "plot them and test claims on them. The scene key `experiment` decides which a run has. Unit "
       "1: no unit. A mean over no cells is 0 in the table and null in `summary.json`. `<k>` stands "
-      "for a number, NAME for the name of a body in the scene.\n";
+      "for a number, NAME for the name of a body or a substance in the scene.\n";
   for (const ObservableSection& section : make_sections()) {
     text += section.experiment.empty() ? fmt::format("\n## Of {}\n\n", section.meaning)
                                        : fmt::format("\n## Experiment {}\n\nMeasures the {}.\n\n",

@@ -82,6 +82,18 @@ std::string name_in_columns(std::string name) {
   return name;
 }
 
+std::vector<Observable> substance_observables(const std::string& substance,
+                                              const std::string& unit) {
+  const std::string name = "substance_" + name_in_columns(substance);
+  const std::string amount = unit == "1" ? "um^3/s" : unit + " um^3/s";
+  return {{name + "_mean", unit, "mean concentration in its box"},
+          {name + "_mean_of_cells", unit,
+           "mean over the cells of the mean concentration in each; 0 without any"},
+          {name + "_lowest_of_cells", unit, "smallest mean concentration in a cell; 0 without any"},
+          {name + "_highest_of_cells", unit, "largest mean concentration in a cell; 0 without any"},
+          {name + "_exchange", amount, "secretion minus uptake of all cells"}};
+}
+
 std::vector<Observable> wall_observables(const std::string& wall) {
   const std::string name = "wall_" + name_in_columns(wall);
   List list{{name + "_force_nN", "nN",

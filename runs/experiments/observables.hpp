@@ -16,6 +16,9 @@ std::vector<Observable> known_observables(Experiment experiment);
 /// Name of a scene as part of a column's name: letters, digits, '-', '.' and '_'.
 std::string name_in_columns(std::string name);
 
+/// Observables of a substance of this name, with its unit of concentration.
+std::vector<Observable> substance_observables(const std::string& name, const std::string& unit);
+
 /// Observables of a wall, capsule or closed mesh of this name.
 std::vector<Observable> wall_observables(const std::string& wall);
 

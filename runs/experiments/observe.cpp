@@ -45,6 +45,10 @@ std::vector<io::SeriesValue> observe_frame(const ObservedFrame& frame, ObservedR
     const std::vector<Observable> of_wall = wall_observables(wall);
     columns.insert(columns.end(), of_wall.begin(), of_wall.end());
   }
+  for (const coupling::Substance& s : frame.world.params.substances.substance) {
+    const std::vector<Observable> of_substance = substance_observables(s.name, s.unit);
+    columns.insert(columns.end(), of_substance.begin(), of_substance.end());
+  }
   for (const Observable& o : columns) row.push_back({o.name, o.unit, latest(m, before, o.name)});
   return row;
 }

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/sphere.hpp"
 #include "coupling/life/cell_cycle.hpp"
 #include "coupling/life/density.hpp"
 #include "coupling/measure/contact_forces.hpp"
+#include "coupling/substances/fields.hpp"
 #include "coupling/world/cell.hpp"
 #include "runs/experiments/observables.hpp"
 
@@ -121,6 +123,32 @@ void sample_growth(const ObservedFrame& frame, Measures& m) {
   m["resting_cells"].push_back(resting);
 }
 
+void sample_substances(const coupling::World& world, Measures& m) {
+  const coupling::SubstanceParams& p = world.params.substances;
+  const auto mean = coupling::cell_concentrations(world),
+             rate = coupling::cell_exchange_rates(world);
+  for (std::size_t k = 0; k < p.substance.size(); ++k) {
+    const std::string name = "substance_" + name_in_columns(p.substance[k].name);
+    const std::vector<double>& field = world.state.substance[k].concentration;
+    double sum = 0, n = 0, exchange = 0;
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    coupling::for_each_cell(world.state, [&](const coupling::Cell& c) {
+      sum += mean[k][c.index];
+      n += 1;
+      lowest = std::min(lowest, mean[k][c.index]);
+      highest = std::max(highest, mean[k][c.index]);
+      exchange += rate[k][c.index];
+    });
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    m[name + "_mean"].push_back(substances::total_amount(p.grid, field) / p.grid.voxel_volume() /
+                                static_cast<double>(field.size()));
+    m[name + "_mean_of_cells"].push_back(n > 0 ? sum / n : none);
+    m[name + "_lowest_of_cells"].push_back(n > 0 ? lowest : none);
+    m[name + "_highest_of_cells"].push_back(n > 0 ? highest : none);
+    m[name + "_exchange"].push_back(exchange);
+  }
+}
+
 }  // namespace
 
 void sample_tissue(const ObservedFrame& frame, Measures& m) {
@@ -132,6 +160,7 @@ void sample_tissue(const ObservedFrame& frame, Measures& m) {
   sample_clusters(frame, m);
   sample_interface(frame, m);
   sample_reactions(frame, m);
+  sample_substances(frame.world, m);
 }
 
 std::vector<std::string> wall_names(const contact::Boundary& boundary) {

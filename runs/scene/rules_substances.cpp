@@ -49,6 +49,8 @@ void check_substance(const Scene& scene, std::size_t k, Report& report) {
                           "another entry has this face");
   for (std::size_t f = 0; f < s.sources.size(); ++f)
     check_region(s.sources[f].region, fmt::format("{}/sources/{}/region", pointer, f), report);
+  if (s.unit.empty())
+    report.add_relation({pointer + "/unit"}, "\"\"", "must not be empty: \"1\" for none");
   check_course(s.course, pointer + "/course", report);
   if (s.vessels && scene.vessels.file.empty() && !scene.lobule)
     report.add_relation({pointer + "/vessels", "/vessels/file", "/lobule"}, "",

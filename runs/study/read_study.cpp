@@ -190,6 +190,7 @@ class Planner {
     };
     add(known_observables(scene.experiment));
     for (const std::string& name : boundary_names(scene)) add(wall_observables(name));
+    for (const SubstanceBlock& s : scene.substances) add(substance_observables(s.name, s.unit));
   }
 
   /// Links every run to the run it starts from, and checks that their scenes allow it.

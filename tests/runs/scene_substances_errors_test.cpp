@@ -11,7 +11,7 @@ using namespace scene_texts;
 constexpr const char* kOxygen = R"("substances": [{"name": "oxygen", "diffusion": "2000 um^2/s"}])";
 
 /// One cell with these blocks.
-std::string scene_with(const std::string& blocks, const std::string& type = "") {
+std::string scene_with_substances(const std::string& blocks, const std::string& type = "") {
   return R"({"time": {"end": "1 h"}, "cell_types": {"a": {"radius": "12 um")" +
          (type.empty() ? type : ", " + type) +
          R"(}}, "cells": {"model": "cbm", "list": [{"position": ["0 um", "0 um", "0 um"]}]}, )" +
@@ -19,22 +19,23 @@ std::string scene_with(const std::string& blocks, const std::string& type = "") 
 }
 
 /// What is wrong, without the place.
-std::string complaint(const std::string& text) {
+std::string substance_complaint(const std::string& text) {
   const std::string all = failure(text);
   const std::size_t at = all.find(" /");
   return at == std::string::npos ? all : all.substr(at + 1);
 }
 
 TEST(SceneSubstances, KeysAreRead) {
-  const Scene scene = parse_scene(
-      scene_with(R"("substances": [{"name": "drug", "unit": "uM", "diffusion": "1e-10 m^2/s",
+  const Scene scene =
+      parse_scene(scene_with_substances(
+                      R"("substances": [{"name": "drug", "unit": "uM", "diffusion": "1e-10 m^2/s",
         "decay": "0.36 1/h", "initial": 2,
         "boundary": {"kind": "exchange", "value": 3, "coefficient": "2 um/s"},
         "faces": [{"side": "z_high", "kind": "no_flux"}]}],
         "substance_grid": {"spacing": "5 um", "step": "1 min"},
         "rules": [{"signal": "drug", "behaviour": "death", "half_max": 4, "rate": "3.6 1/h"}])",
-                 R"("exchange": [{"substance": "drug", "uptake": "0.5 1/s"}])"),
-      "scene.json");
+                      R"("exchange": [{"substance": "drug", "uptake": "0.5 1/s"}])"),
+                  "scene.json");
   const SubstanceBlock& drug = scene.substances.at(0);
   EXPECT_DOUBLE_EQ(drug.diffusion, 100);
   EXPECT_DOUBLE_EQ(drug.decay, 1e-4);
@@ -48,48 +49,61 @@ TEST(SceneSubstances, KeysAreRead) {
 TEST(SceneSubstancesErrors, NamesMustBeThoseOfSubstances) {
   const std::string rule =
       R"("rules": [{"signal": "oxigen", "behaviour": "growth", "half_max": 1}])";
-  EXPECT_EQ(complaint(scene_with(kOxygen + (", " + rule))),
+  EXPECT_EQ(substance_complaint(scene_with_substances(kOxygen + (", " + rule))),
             "/rules/0/signal = \"oxigen\": is no substance. Did you mean \"oxygen\"?");
-  EXPECT_EQ(complaint(scene_with(rule)),
+  EXPECT_EQ(substance_complaint(scene_with_substances(rule)),
             "/rules/0/signal = \"oxigen\": is no substance: the scene has none. Give a block "
             "substances");
-  EXPECT_EQ(complaint(scene_with(kOxygen, R"("exchange": [{"substance": "glucose"}])")),
+  EXPECT_EQ(substance_complaint(
+                scene_with_substances(kOxygen, R"("exchange": [{"substance": "glucose"}])")),
             "/cell_types/a/exchange/0/substance = \"glucose\": is no substance. Known: oxygen");
-  EXPECT_EQ(complaint(scene_with(kOxygen + std::string(R"(, "motility": {"leader_signal": "x"})"))),
+  EXPECT_EQ(substance_complaint(scene_with_substances(
+                kOxygen + std::string(R"(, "motility": {"leader_signal": "x"})"))),
             "/motility/leader_signal = \"x\": is no substance. Known: oxygen");
-  EXPECT_EQ(complaint(scene_with(
+  EXPECT_EQ(substance_complaint(scene_with_substances(
                 kOxygen + std::string(R"(, "rules": [{"signal": "oxygen", "behaviour": "growth",
                   "half_max": 1, "cell_type": "b"}])"))),
             "/rules/0/cell_type = \"b\": unknown cell type. Did you mean \"a\"?");
 }
 
 TEST(SceneSubstancesErrors, NoConcentrationIsNegative) {
-  EXPECT_EQ(complaint(scene_with(
+  EXPECT_EQ(substance_complaint(scene_with_substances(
                 R"("substances": [{"name": "x", "diffusion": "1 um^2/s", "initial": -1}])")),
             "/substances/0/initial = -1: must be >= 0");
-  EXPECT_EQ(complaint(scene_with(R"("substances": [{"name": "x", "diffusion": "-1 um^2/s"}])")),
+  EXPECT_EQ(substance_complaint(scene_with_substances(
+                R"("substances": [{"name": "x", "diffusion": "-1 um^2/s"}])")),
             "/substances/0/diffusion = \"-1 um^2/s\": must be >= 0 um^2/s");
 }
 
 TEST(SceneSubstancesErrors, VoxelsAreNoLargerThanCells) {
+  EXPECT_EQ(substance_complaint(scene_with_substances(
+                kOxygen + std::string(R"(, "substance_grid": {"spacing": "30 um"})"))),
+            "/substance_grid/spacing = \"30 um\": is larger than a cell of type a, \"24 um\" "
+            "across: its surroundings would be those of its neighbours. Take at most that, better "
+            "half of it");
   EXPECT_EQ(
-      complaint(scene_with(kOxygen + std::string(R"(, "substance_grid": {"spacing": "30 um"})"))),
-      "/substance_grid/spacing = \"30 um\": is larger than a cell of type a, \"24 um\" "
-      "across: its surroundings would be those of its neighbours. Take at most that, better "
-      "half of it");
-  EXPECT_EQ(complaint(scene_with(kOxygen + std::string(R"(, "substance_grid": {"box":
+      substance_complaint(scene_with_substances(kOxygen + std::string(R"(, "substance_grid": {"box":
                   [["0 um", "5 um", "0 um"], ["9 um", "5 um", "9 um"]]})"))),
-            "/substance_grid/box/0/1 = \"5 um\": must be below /substance_grid/box/1/1 = \"5 um\"");
+      "/substance_grid/box/0/1 = \"5 um\": must be below /substance_grid/box/1/1 = \"5 um\"");
+}
+
+TEST(SceneSubstancesErrors, UnitIsNamed) {
+  EXPECT_EQ(substance_complaint(scene_with_substances(
+                R"("substances": [{"name": "x", "unit": "", "diffusion": "1 um^2/s"}])")),
+            "/substances/0/unit = \"\": must not be empty: \"1\" for none");
 }
 
 TEST(SceneSubstancesErrors, NothingIsSaidTwice) {
-  EXPECT_EQ(complaint(scene_with(R"("substances": [{"name": "x", "diffusion": "1 um^2/s"},
+  EXPECT_EQ(substance_complaint(
+                scene_with_substances(R"("substances": [{"name": "x", "diffusion": "1 um^2/s"},
               {"name": "x", "diffusion": "2 um^2/s"}])")),
             "/substances/1/name = \"x\": another substance has this name");
-  EXPECT_EQ(complaint(scene_with(R"("substances": [{"name": "x", "diffusion": "1 um^2/s",
+  EXPECT_EQ(substance_complaint(
+                scene_with_substances(R"("substances": [{"name": "x", "diffusion": "1 um^2/s",
               "faces": [{"side": "x_low"}, {"side": "x_low"}]}])")),
             "/substances/0/faces/1/side = \"x_low\": another entry has this face");
-  EXPECT_EQ(complaint(scene_with(R"("substances": [{"name": "x", "diffusion": "1 um^2/s",
+  EXPECT_EQ(substance_complaint(
+                scene_with_substances(R"("substances": [{"name": "x", "diffusion": "1 um^2/s",
               "vessels": {"concentration": 1, "permeability": "1 um/s"}}])")),
             "/substances/0/vessels: needs vessels: give /vessels/file or a lobule block");
 }
