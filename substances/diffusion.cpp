@@ -12,14 +12,14 @@ namespace {
 constexpr int kMostLinearisations = 20;
 
 /// Rate of exchange with a voxel side outside, 1/s: half a voxel in series with the face.
-double face_rate(const Face& face, double diffusion, double h) {
+double face_rate(const FaceCondition& face, double diffusion, double h) {
   if (face.kind == FaceKind::kNoFlux || !(diffusion > 0)) return 0;
   const double resistance = 0.5 * h / diffusion;
   if (face.kind == FaceKind::kFixed) return 1 / (resistance * h);
   return face.coefficient > 0 ? 1 / ((1 / face.coefficient + resistance) * h) : 0;
 }
 
-std::array<double, 6> face_rates(const Grid& grid, const Medium& m) {
+std::array<double, 6> face_rates(const VoxelGrid& grid, const Medium& m) {
   std::array<double, 6> rate{};
   for (int side = 0; side < 6; ++side)
     rate[side] = face_rate(m.face[side], m.diffusion, grid.spacing[side / 2]);
@@ -28,7 +28,7 @@ std::array<double, 6> face_rates(const Grid& grid, const Medium& m) {
 
 /// Calls f(voxel, side) for every voxel at every face of the box.
 template <class F>
-void for_each_face_voxel(const Grid& grid, const F& f) {
+void for_each_face_voxel(const VoxelGrid& grid, const F& f) {
   for (int side = 0; side < 6; ++side) {
     const int axis = side / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
     std::array<int, 3> at{};
@@ -54,17 +54,17 @@ Linear linearise(const Exchange& e, double c) {
 
 /// Calls f(body, share, exchange) for every share of a body that exchanges.
 template <class F>
-void for_each_exchange(const Bodies& bodies, const F& f) {
+void for_each_exchange(const ExchangingBodies& bodies, const F& f) {
   for (std::size_t b = 0; b < bodies.exchange.size(); ++b)
     if (bodies.exchange[b].acts())
-      for (const Share& s : bodies.shares.of(b)) f(b, s, bodies.exchange[b]);
+      for (const VoxelShare& s : bodies.shares.of(b)) f(b, s, bodies.exchange[b]);
 }
 
 /// One substance during one call.
 class Stepper {
  public:
-  Stepper(const Grid& grid, const Medium& medium, const Bodies& bodies, const Advance& how,
-          Solver& solver)
+  Stepper(const VoxelGrid& grid, const Medium& medium, const ExchangingBodies& bodies,
+          const Advance& how, Solver& solver)
       : grid_(grid),
         medium_(medium),
         bodies_(bodies),
@@ -121,7 +121,7 @@ class Stepper {
         system_.rhs[v] += step * supply_ * medium_.gain[v];
       }
     const double scale = step / grid_.voxel_volume();
-    for_each_exchange(bodies_, [&](std::size_t, const Share& s, const Exchange& e) {
+    for_each_exchange(bodies_, [&](std::size_t, const VoxelShare& s, const Exchange& e) {
       const Linear l = linearise(e, around(s.voxel));
       system_.own[s.voxel] += scale * s.volume * l.loss;
       system_.rhs[s.voxel] += scale * s.volume * l.gain;
@@ -142,7 +142,7 @@ class Stepper {
   void account(double step, std::span<const double> c, std::span<double> gained, Budget& budget) {
     const double volume = grid_.voxel_volume();
     double secreted = 0, entered = 0, supplied = 0;
-    for_each_exchange(bodies_, [&](std::size_t body, const Share& s, const Exchange& e) {
+    for_each_exchange(bodies_, [&](std::size_t body, const VoxelShare& s, const Exchange& e) {
       const Linear l = linearise(e, around(s.voxel));
       const double amount = step * s.volume * (l.gain - l.loss * c[s.voxel]);
       secreted += amount;
@@ -160,9 +160,9 @@ class Stepper {
     budget.decayed += step * medium_.decay * total_amount(grid_, c);
   }
 
-  const Grid& grid_;
+  const VoxelGrid& grid_;
   const Medium& medium_;
-  const Bodies& bodies_;
+  const ExchangingBodies& bodies_;
   double tolerance_, supply_;
   std::array<double, 6> rate_;
   bool nonlinear_ = false;
@@ -192,8 +192,8 @@ void Budget::add(const Budget& o) {
   converged = converged && o.converged;
 }
 
-Budget advance(const Grid& grid, const Medium& medium, const Bodies& bodies, const Advance& how,
-               Solver& solver, std::span<double> c, std::span<double> gained) {
+Budget advance(const VoxelGrid& grid, const Medium& medium, const ExchangingBodies& bodies,
+               const Advance& how, Solver& solver, std::span<double> c, std::span<double> gained) {
   constexpr double kRoundOff = 1e-9;
   const double n =
       how.longest > 0 ? std::max(1.0, std::ceil(how.step / how.longest - kRoundOff)) : 1;
@@ -207,7 +207,7 @@ Budget advance(const Grid& grid, const Medium& medium, const Bodies& bodies, con
   return budget;
 }
 
-double total_amount(const Grid& grid, std::span<const double> c) {
+double total_amount(const VoxelGrid& grid, std::span<const double> c) {
   return grid.voxel_volume() * sum_voxels(grid.n[2], c);
 }
 

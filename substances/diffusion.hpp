@@ -19,16 +19,16 @@ namespace acinus::substances {
 enum class FaceKind : std::uint8_t { kNoFlux, kFixed, kExchange };
 
 /// Condition on one face of the box.
-struct Face {
+struct FaceCondition {
   FaceKind kind = FaceKind::kNoFlux;
   double value = 0;        ///< concentration outside
   double coefficient = 0;  ///< um/s, kExchange: flux into the box = coefficient (value - c at face)
 };
 
 struct Medium {
-  double diffusion = 0;        ///< um^2/s
-  double decay = 0;            ///< 1/s
-  std::array<Face, 6> face{};  ///< x low, x high, y low, y high, z low, z high
+  double diffusion = 0;                 ///< um^2/s
+  double decay = 0;                     ///< 1/s
+  std::array<FaceCondition, 6> face{};  ///< x low, x high, y low, y high, z low, z high
   /// Sources that stay in place, such as vessels: gain - loss c.  [n_voxel] or empty
   std::vector<double> gain;  ///< concentration / s
   std::vector<double> loss;  ///< 1/s
@@ -49,7 +49,7 @@ struct Exchange {
 double exchange_rate(const Exchange& exchange, double concentration);
 
 /// Bodies and their exchange.
-struct Bodies {
+struct ExchangingBodies {
   const Shares& shares;
   std::span<const Exchange> exchange;  ///< [body]
 };
@@ -77,10 +77,10 @@ struct Advance {
 /// Advances a field.
 /// @param c       [n_voxel] concentration, changed
 /// @param gained  [body] amount secreted minus taken up, added to; empty: not wanted
-Budget advance(const Grid& grid, const Medium& medium, const Bodies& bodies, const Advance& how,
-               Solver& solver, std::span<double> c, std::span<double> gained);
+Budget advance(const VoxelGrid& grid, const Medium& medium, const ExchangingBodies& bodies,
+               const Advance& how, Solver& solver, std::span<double> c, std::span<double> gained);
 
 /// Amount in all voxels.
-double total_amount(const Grid& grid, std::span<const double> c);
+double total_amount(const VoxelGrid& grid, std::span<const double> c);
 
 }  // namespace acinus::substances

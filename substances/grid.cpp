@@ -15,8 +15,8 @@ double count_along(double length, double longest) {
 
 }  // namespace
 
-Grid make_grid(const Box& box, double longest) {
-  Grid grid;
+VoxelGrid make_grid(const Box& box, double longest) {
+  VoxelGrid grid;
   grid.low = box.low;
   for (int axis = 0; axis < 3; ++axis) {
     const double length = box.high[axis] - box.low[axis], n = count_along(length, longest);

@@ -10,7 +10,7 @@
 namespace acinus::substances {
 
 /// Voxels in storage order: x fastest, then y, then z.
-struct Grid {
+struct VoxelGrid {
   Vec3 low = Vec3::Zero();      ///< um, corner with the smallest coordinates
   Vec3 spacing = Vec3::Ones();  ///< um, edges of a voxel
   std::array<int, 3> n{0, 0, 0};
@@ -34,7 +34,7 @@ struct Grid {
 };
 
 /// Grid of a box with voxels no longer than `longest` along each axis, um.
-Grid make_grid(const Box& box, double longest);
+VoxelGrid make_grid(const Box& box, double longest);
 
 /// Number of voxels of make_grid, which may be too many for a grid.
 double count_voxels(const Box& box, double longest);

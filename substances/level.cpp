@@ -11,7 +11,7 @@ namespace {
 
 /// Neighbours of a row across y and z, with the conductances to them per width along x.
 template <class T>
-struct Row {
+struct NeighbourRows {
   const T* below_y;
   const T* above_y;
   const T* below_z;
@@ -21,8 +21,8 @@ struct Row {
 };
 
 template <class T>
-Row<T> row_at(const Level<T>& l, const T* x, int j, int k) {
-  const Layout& at = l.layout;
+NeighbourRows<T> row_at(const Level<T>& l, const T* x, int j, int k) {
+  const PaddedLayout& at = l.layout;
   const auto plane = static_cast<std::size_t>(at.n[1]) * at.stride;
   const T* own = x + at.row(j, k);
   const double wy = l.width[1][j], wz = l.width[2][k];
@@ -44,8 +44,8 @@ ACINUS_INLINE LaneOf<T> spread(T s) {
 
 /// Flow into eight voxels from their neighbours.
 template <class T>
-ACINUS_INLINE LaneOf<T> inflow(const T* low, const T* high, const T* width, const Row<T>& r,
-                               const T* x, std::size_t i) {
+ACINUS_INLINE LaneOf<T> inflow(const T* low, const T* high, const T* width,
+                               const NeighbourRows<T>& r, const T* x, std::size_t i) {
   const LaneOf<T> along =
       load<T>(low + i) * load<T>(x + i - 1) + load<T>(high + i) * load<T>(x + i + 1);
   const LaneOf<T> across =
@@ -77,8 +77,8 @@ LevelRow<T> level_row(const Level<T>& l) {
 
 /// Solves for the voxels of a row whose number along x has this parity.
 template <class T>
-ACINUS_INLINE void smooth_row_of(LevelRow<T> l, Row<T> r, const T* inverse, const T* b, bool odd,
-                                 T* x) {
+ACINUS_INLINE void smooth_row_of(LevelRow<T> l, NeighbourRows<T> r, const T* inverse, const T* b,
+                                 bool odd, T* x) {
   const MaskOf<T> mask =
       odd ? MaskOf<T>{0, -1, 0, -1, 0, -1, 0, -1} : MaskOf<T>{-1, 0, -1, 0, -1, 0, -1, 0};
   for (std::size_t i = 0; i < l.n; i += kLanes) {
@@ -96,7 +96,8 @@ ACINUS_INLINE void start_row_of(std::size_t n, const T* inverse, const T* b, boo
     store(x + i, mask ? load<T>(inverse + i) * load<T>(b + i) : zero);
 }
 template <class T>
-ACINUS_INLINE double multiply_row_of(LevelRow<T> l, Row<T> r, const T* diagonal, const T* x, T* y) {
+ACINUS_INLINE double multiply_row_of(LevelRow<T> l, NeighbourRows<T> r, const T* diagonal,
+                                     const T* x, T* y) {
   Lane sum = lane_of(0);
   for (std::size_t i = 0; i < l.n; i += kLanes) {
     const LaneOf<T> own = load<T>(x + i);
@@ -107,30 +108,30 @@ ACINUS_INLINE double multiply_row_of(LevelRow<T> l, Row<T> r, const T* diagonal,
   return sum_lanes<double>(sum);
 }
 template <class T>
-ACINUS_INLINE void residual_row_of(LevelRow<T> l, Row<T> r, const T* diagonal, const T* b,
+ACINUS_INLINE void residual_row_of(LevelRow<T> l, NeighbourRows<T> r, const T* diagonal, const T* b,
                                    const T* x, T* y) {
   for (std::size_t i = 0; i < l.n; i += kLanes)
     store(y + i, load<T>(b + i) - load<T>(diagonal + i) * load<T>(x + i) +
                      inflow(l.low, l.high, l.width, r, x, i));
 }
 
-ACINUS_KERNEL void smooth_row(const LevelRow<float>& l, const Row<float>& r, const float* inverse,
-                              const float* b, bool odd, float* x) {
+ACINUS_KERNEL void smooth_row(const LevelRow<float>& l, const NeighbourRows<float>& r,
+                              const float* inverse, const float* b, bool odd, float* x) {
   smooth_row_of(l, r, inverse, b, odd, x);
 }
 ACINUS_KERNEL void start_row(std::size_t n, const float* inverse, const float* b, bool odd,
                              float* x) {
   start_row_of(n, inverse, b, odd, x);
 }
-ACINUS_KERNEL double multiply_row(const LevelRow<double>& l, const Row<double>& r,
+ACINUS_KERNEL double multiply_row(const LevelRow<double>& l, const NeighbourRows<double>& r,
                                   const double* diagonal, const double* x, double* y) {
   return multiply_row_of(l, r, diagonal, x, y);
 }
-ACINUS_KERNEL void residual_row(const LevelRow<float>& l, const Row<float>& r,
+ACINUS_KERNEL void residual_row(const LevelRow<float>& l, const NeighbourRows<float>& r,
                                 const float* diagonal, const float* b, const float* x, float* y) {
   residual_row_of(l, r, diagonal, b, x, y);
 }
-ACINUS_KERNEL void residual_row(const LevelRow<double>& l, const Row<double>& r,
+ACINUS_KERNEL void residual_row(const LevelRow<double>& l, const NeighbourRows<double>& r,
                                 const double* diagonal, const double* b, const double* x,
                                 double* y) {
   residual_row_of(l, r, diagonal, b, x, y);
@@ -152,8 +153,8 @@ void smooth_plane(const Level<float>& l, const float* b, float* x, int k, int co
 
 }  // namespace
 
-Layout make_layout(const std::array<int, 3>& n) {
-  Layout layout;
+PaddedLayout make_layout(const std::array<int, 3>& n) {
+  PaddedLayout layout;
   layout.n = n;
   const auto lanes = static_cast<std::size_t>((n[0] + kLanes - 1) / kLanes);
   layout.stride = kLanes * (lanes + 1);
@@ -185,7 +186,7 @@ constexpr bool kSmooths = std::is_same_v<T, float>;
 
 template <class T>
 void set_diagonal(std::span<const double> all, Level<T>& l) {
-  const Layout& at = l.layout;
+  const PaddedLayout& at = l.layout;
   if (l.diagonal.size() != at.size) {
     l.diagonal.assign(at.size, T{0});
     if (kSmooths<T>) l.inverse.assign(at.size, T{0});

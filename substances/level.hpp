@@ -15,7 +15,7 @@
 namespace acinus::substances {
 
 /// Places of padded voxels.
-struct Layout {
+struct PaddedLayout {
   std::array<int, 3> n{0, 0, 0};
   std::size_t stride = 0;  ///< numbers per row
   std::size_t size = 0;    ///< numbers per array
@@ -30,12 +30,12 @@ struct Layout {
            static_cast<std::size_t>(n[2]);
   }
 };
-Layout make_layout(const std::array<int, 3>& n);
+PaddedLayout make_layout(const std::array<int, 3>& n);
 
 /// Matrix on a grid whose voxels have widths relative to those of the finest grid.
 template <class T>
 struct Level {
-  Layout layout;
+  PaddedLayout layout;
   std::array<std::vector<double>, 3> width;     ///< per axis, [n]
   std::array<std::vector<double>, 3> face;      ///< per axis, [n + 1]; conductance below voxel i
                                                 ///< per area of a fine face; 0 at both ends

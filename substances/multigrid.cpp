@@ -17,7 +17,7 @@ Transfer make_transfer(int n, bool coarsens) {
   const int n_coarse = coarsens ? (n + 1) / 2 : n;
   t.coarse.resize(static_cast<std::size_t>(n_coarse));
   for (int i = 0; i < n; ++i) {
-    Transfer::Point p{i, i, 1, 0};
+    Transfer::Parents p{i, i, 1, 0};
     if (coarsens) {
       p.near = p.far = i / 2;
       const int far = i % 2 == 0 ? p.near - 1 : p.near + 1;
@@ -67,8 +67,8 @@ ACINUS_KERNEL void add_scaled(std::size_t n, float share, const float* from, flo
 }
 
 /// b of the coarse level = transposed interpolation of a residual.
-void restrict_to(const Layout& fine, const Layout& coarse, const std::array<Transfer, 3>& t,
-                 const float* r, float* b) {
+void restrict_to(const PaddedLayout& fine, const PaddedLayout& coarse,
+                 const std::array<Transfer, 3>& t, const float* r, float* b) {
   const std::size_t length = fine.stride - kLanes;
   for_each_plane(coarse.n[2], fine.n_voxel(), [&](int k) {
     std::vector<float> sum(length);
@@ -88,14 +88,14 @@ void restrict_to(const Layout& fine, const Layout& coarse, const std::array<Tran
 }
 
 /// x += interpolation of a coarse solution.
-void prolong(const Layout& fine, const Layout& coarse, const std::array<Transfer, 3>& t,
+void prolong(const PaddedLayout& fine, const PaddedLayout& coarse, const std::array<Transfer, 3>& t,
              const float* from, float* x) {
   const std::size_t length = coarse.stride - kLanes;
   for_each_plane(fine.n[2], fine.n_voxel(), [&](int k) {
     std::vector<float> sum(length);
-    const Transfer::Point& z = t[2].fine[k];
+    const Transfer::Parents& z = t[2].fine[k];
     for (int j = 0; j < fine.n[1]; ++j) {
-      const Transfer::Point& y = t[1].fine[j];
+      const Transfer::Parents& y = t[1].fine[j];
       std::fill(sum.begin(), sum.end(), 0.0F);
       const auto add = [&](int jc, int kc, double share) {
         if (share > 0)
@@ -107,7 +107,7 @@ void prolong(const Layout& fine, const Layout& coarse, const std::array<Transfer
       add(y.far, z.far, y.far_share * z.far_share);
       float* to = x + fine.row(j, k);
       for (int i = 0; i < fine.n[0]; ++i) {
-        const Transfer::Point& p = t[0].fine[i];
+        const Transfer::Parents& p = t[0].fine[i];
         to[i] += static_cast<float>(p.near_share) * sum[p.near] +
                  static_cast<float>(p.far_share) * sum[p.far];
       }

@@ -12,11 +12,11 @@ namespace acinus::substances {
 
 /// Weights of linear interpolation along an axis between a grid and the next coarser one.
 struct Transfer {
-  struct Point {
+  struct Parents {
     int near = 0, far = 0;  ///< coarse voxels
     double near_share = 1, far_share = 0;
   };
-  std::vector<Point> fine;  ///< per fine voxel
+  std::vector<Parents> fine;  ///< per fine voxel
   /// Fine voxels with their shares, per coarse voxel.
   std::vector<std::vector<std::pair<int, double>>> coarse;
 };
@@ -36,7 +36,7 @@ class Multigrid {
   /// x = V-cycle(b) from zero.   @param b, x  [size] of the finest level
   void apply(const float* b, float* x);
 
-  const Layout& layout() const { return level_.front().layout; }
+  const PaddedLayout& layout() const { return level_.front().layout; }
   std::size_t n_level() const { return level_.size(); }
 
  private:

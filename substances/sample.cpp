@@ -12,7 +12,7 @@ struct Between {
   int low = 0, high = 0;
   double share = 0;
 };
-Between between(const Grid& grid, int axis, double x) {
+Between between(const VoxelGrid& grid, int axis, double x) {
   const double last = grid.n[axis] - 1.0;
   const double place =
       std::clamp((x - grid.low[axis]) / grid.spacing[axis] - 0.5, 0.0, std::max(last, 0.0));
@@ -22,7 +22,7 @@ Between between(const Grid& grid, int axis, double x) {
 
 }  // namespace
 
-double interpolate(const Grid& grid, std::span<const double> field, const Vec3& point) {
+double interpolate(const VoxelGrid& grid, std::span<const double> field, const Vec3& point) {
   const std::array<Between, 3> at{between(grid, 0, point.x()), between(grid, 1, point.y()),
                                   between(grid, 2, point.z())};
   const auto along_x = [&](int j, int k) {
@@ -35,7 +35,7 @@ double interpolate(const Grid& grid, std::span<const double> field, const Vec3& 
   return (1 - at[2].share) * in_plane(at[2].low) + at[2].share * in_plane(at[2].high);
 }
 
-Vec3 gradient_at(const Grid& grid, std::span<const double> field, const Vec3& point) {
+Vec3 gradient_at(const VoxelGrid& grid, std::span<const double> field, const Vec3& point) {
   Vec3 gradient = Vec3::Zero();
   for (int axis = 0; axis < 3; ++axis) {
     if (grid.n[axis] < 2) continue;

@@ -15,7 +15,7 @@ constexpr double kColumnsAcross = 8, kColumnsPerVoxel = 4;
 /// Voxels around a body, and the lengths of columns in them.
 class Columns {
  public:
-  Columns(const Grid& grid, const Box& body) : grid_(grid), bottom_(body.low.z()) {
+  Columns(const VoxelGrid& grid, const Box& body) : grid_(grid), bottom_(body.low.z()) {
     for (int axis = 0; axis < 3; ++axis) {
       first_[axis] = voxel_at(axis, body.low[axis]);
       count_[axis] = voxel_at(axis, body.high[axis]) - first_[axis] + 1;
@@ -53,14 +53,14 @@ class Columns {
   }
 
   /// Shares that sum to `volume`.
-  std::vector<Share> finish(double volume, const Vec3& center) const {
+  std::vector<VoxelShare> finish(double volume, const Vec3& center) const {
     double sum = 0;
     for (const double v : length_) sum += std::max(v, 0.0);
     if (!(sum > 0))
       return {
           {grid_.index(voxel_at(0, center.x()), voxel_at(1, center.y()), voxel_at(2, center.z())),
            volume}};
-    std::vector<Share> shares;
+    std::vector<VoxelShare> shares;
     for (int k = 0; k < count_[2]; ++k)
       for (int j = 0; j < count_[1]; ++j)
         for (int i = 0; i < count_[0]; ++i) {
@@ -81,7 +81,7 @@ class Columns {
     return k >= count_[2] ? 1e300 : grid_.low.z() + (first_[2] + k) * grid_.spacing.z();
   }
 
-  const Grid& grid_;
+  const VoxelGrid& grid_;
   double bottom_;
   std::array<int, 3> first_{}, count_{};
   std::array<double, 3> pitch_{};  ///< um between columns; those along z are not used
@@ -91,13 +91,13 @@ class Columns {
 
 /// Position of a point relative to the directed edge a -> b, seen from above: +1 left, -1 right.
 /// Both triangles of an edge get opposite answers, also for points on it.
-struct Corner {
+struct ProjectedNode {
   int index;
   double x, y;
 };
-int side_of(const Corner& a, const Corner& b, double x, double y) {
+int side_of(const ProjectedNode& a, const ProjectedNode& b, double x, double y) {
   const bool flipped = a.index > b.index;
-  const Corner &p = flipped ? b : a, &q = flipped ? a : b;
+  const ProjectedNode &p = flipped ? b : a, &q = flipped ? a : b;
   const double e = (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x);
   return (e >= 0) != flipped ? 1 : -1;
 }
@@ -112,12 +112,12 @@ double volume_inside(std::span<const Vec3> node, std::span<const std::array<int,
 
 }  // namespace
 
-void Shares::add(std::span<const Share> body) {
+void Shares::add(std::span<const VoxelShare> body) {
   share.insert(share.end(), body.begin(), body.end());
   start.push_back(share.size());
 }
 
-std::vector<Share> share_sphere(const Grid& grid, const Vec3& center, double radius) {
+std::vector<VoxelShare> share_sphere(const VoxelGrid& grid, const Vec3& center, double radius) {
   Columns columns(grid, sphere_box(center, radius));
   for (long j = columns.first_column(1, center.y() - radius); j < columns.end_column(1); ++j)
     for (long i = columns.first_column(0, center.x() - radius); i < columns.end_column(0); ++i) {
@@ -132,8 +132,8 @@ std::vector<Share> share_sphere(const Grid& grid, const Vec3& center, double rad
   return columns.finish(sphere_volume(radius), center);
 }
 
-std::vector<Share> share_surface(const Grid& grid, std::span<const Vec3> node,
-                                 std::span<const std::array<int, 3>> triangle) {
+std::vector<VoxelShare> share_surface(const VoxelGrid& grid, std::span<const Vec3> node,
+                                      std::span<const std::array<int, 3>> triangle) {
   Box box;
   for (const Vec3& x : node) box.include(x);
   const Vec3 center = 0.5 * (box.low + box.high);
@@ -142,7 +142,7 @@ std::vector<Share> share_surface(const Grid& grid, std::span<const Vec3> node,
     const Vec3 &a = node[t[0]], &b = node[t[1]], &c = node[t[2]];
     const Vec3 normal = (b - a).cross(c - a);
     if (normal.z() == 0) continue;
-    const Corner p{t[0], a.x(), a.y()}, q{t[1], b.x(), b.y()}, r{t[2], c.x(), c.y()};
+    const ProjectedNode p{t[0], a.x(), a.y()}, q{t[1], b.x(), b.y()}, r{t[2], c.x(), c.y()};
     const double right = std::max({p.x, q.x, r.x}), top = std::max({p.y, q.y, r.y});
     const int turn = normal.z() > 0 ? 1 : -1;
     for (long j = columns.first_column(1, std::min({p.y, q.y, r.y}));
@@ -160,9 +160,9 @@ std::vector<Share> share_surface(const Grid& grid, std::span<const Vec3> node,
   return columns.finish(std::max(0.0, volume_inside(node, triangle, center)), center);
 }
 
-double mean_over(std::span<const Share> body, std::span<const double> field) {
+double mean_over(std::span<const VoxelShare> body, std::span<const double> field) {
   double sum = 0, volume = 0;
-  for (const Share& s : body) {
+  for (const VoxelShare& s : body) {
     sum += s.volume * field[s.voxel];
     volume += s.volume;
   }

@@ -37,16 +37,16 @@ ACINUS_KERNEL double advance_row(std::size_t n, double alpha, double scale, cons
 }
 
 /// Numbers of plane k, its padding included: first and count, in whole lanes.
-struct Plane {
+struct PlaneRange {
   std::size_t first, n;
 };
-Plane plane_of(const Layout& l, int k) {
+PlaneRange plane_of(const PaddedLayout& l, int k) {
   return {l.row(0, k), static_cast<std::size_t>(l.n[1]) * l.stride};
 }
 
 /// Copies voxels into padded rows or back, calling f(padded place, voxel).
 template <class F>
-void for_each_voxel(const Layout& l, const F& f) {
+void for_each_voxel(const PaddedLayout& l, const F& f) {
   for_each_plane(l.n[2], l.n_voxel(), [&](int k) {
     std::size_t voxel = static_cast<std::size_t>(k) * l.n[1] * l.n[0];
     for (int j = 0; j < l.n[1]; ++j) {
@@ -70,7 +70,7 @@ void Solver::resize(const std::array<int, 3>& n) {
 }
 
 SolveResult Solver::solve(const StepSystem& system, double tolerance, std::span<double> c) {
-  const Layout& l = level_.layout;
+  const PaddedLayout& l = level_.layout;
   set_faces(system.conductance, level_);
   set_diagonal<double>(system.own, level_);
   multigrid_.set(system.own, system.conductance);

@@ -19,7 +19,7 @@ constexpr int kFieldWarmUp = 5, kFieldSteps = 9;
 struct FieldCase {
   std::string name;
   double diffusion, decay;
-  substances::Face face;
+  substances::FaceCondition face;
   double start;
   substances::Exchange exchange;
 };
@@ -39,7 +39,7 @@ std::vector<Vec3> ball_of_cells(double spacing, double radius) {
 
 BenchRow measure_field(const FieldCase& c) {
   constexpr double kCellRadius = 12, kTissueRadius = 290;
-  const substances::Grid grid = substances::make_grid(
+  const substances::VoxelGrid grid = substances::make_grid(
       {Vec3::Zero(), Vec3::Constant(kFieldVoxels * kFieldSpacing)}, kFieldSpacing);
   substances::Medium medium;
   medium.diffusion = c.diffusion;
@@ -88,7 +88,7 @@ BenchTable bench_fields(const BenchOptions&) {
   linear.uptake = 0.17;
   saturates.uptake_max = 20;
   saturates.half_max = 1;
-  const substances::Face closed{}, held{FaceKind::kFixed, 38, 0};
+  const substances::FaceCondition closed{}, held{FaceKind::kFixed, 38, 0};
   for (const FieldCase& c :
        {FieldCase{"morphogen, D dt / h^2 = 6", 10, 1e-3, closed, 0, secretes},
         FieldCase{"oxygen, linear uptake, D dt / h^2 = 1200", 2000, 0, held, 38, linear},

@@ -22,8 +22,8 @@ std::vector<Cell> list_cells(const State& s) {
   return cells;
 }
 
-std::vector<substances::Share> share_cell(const substances::Grid& grid, const State& s,
-                                          const Cell& c) {
+std::vector<substances::VoxelShare> share_cell(const substances::VoxelGrid& grid, const State& s,
+                                               const Cell& c) {
   if (!c.deformable)
     return substances::share_sphere(grid, cbm::center_of(s.cbm, c.at),
                                     sphere_radius(s.cbm.volume[c.at].at(s.clock.time)));
@@ -51,14 +51,14 @@ double area_of(const State& s, const Cell& c) {
 
 /// Exchange of a cell per volume; that of its surface is spread over its volume.
 substances::Exchange exchange_of(const Substance& substance, const State& s, const Cell& c,
-                                 std::span<const substances::Share> shares) {
+                                 std::span<const substances::VoxelShare> shares) {
   const auto type = static_cast<std::size_t>(type_of(s, c));
   if (type >= substance.exchange.size() || is_dissolving(s, c)) return {};
   const CellExchange& of_type = substance.exchange[type];
   substances::Exchange e = of_type;
   if (of_type.secretion_per_area > 0 || of_type.uptake_per_area > 0) {
     double volume = 0;
-    for (const substances::Share& share : shares) volume += share.volume;
+    for (const substances::VoxelShare& share : shares) volume += share.volume;
     const double area = area_of(s, c);
     e.secretion += of_type.secretion_per_area * area / volume;
     e.uptake += of_type.uptake_per_area * area / volume;
@@ -106,7 +106,7 @@ void begin_substances(const SubstanceParams& p, State& s) {
 
 substances::Shares share_cells(const SubstanceParams& p, const State& s) {
   const std::vector<Cell> cells = list_cells(s);
-  std::vector<std::vector<substances::Share>> share(cells.size());
+  std::vector<std::vector<substances::VoxelShare>> share(cells.size());
   for_each_index(cells.size(), cells.size() > kWorthThreads,
                  [&](std::size_t k) { share[k] = share_cell(p.grid, s, cells[k]); });
   substances::Shares shares;
@@ -155,7 +155,7 @@ double next_supply_change(const SubstanceParams& p, double time) {
 
 std::vector<std::vector<double>> cell_concentrations(const World& world) {
   return of_each_cell(world,
-                      [&](std::size_t k, const Cell&, std::span<const substances::Share> of) {
+                      [&](std::size_t k, const Cell&, std::span<const substances::VoxelShare> of) {
                         return substances::mean_over(of, world.state.substance[k].concentration);
                       });
 }
@@ -163,11 +163,11 @@ std::vector<std::vector<double>> cell_concentrations(const World& world) {
 std::vector<std::vector<double>> cell_exchange_rates(const World& world) {
   const State& s = world.state;
   return of_each_cell(
-      world, [&](std::size_t k, const Cell& c, std::span<const substances::Share> shares) {
+      world, [&](std::size_t k, const Cell& c, std::span<const substances::VoxelShare> shares) {
         const substances::Exchange exchange =
             exchange_of(world.params.substances.substance[k], s, c, shares);
         double sum = 0;
-        for (const substances::Share& share : shares)
+        for (const substances::VoxelShare& share : shares)
           sum += share.volume *
                  substances::exchange_rate(exchange, s.substance[k].concentration[share.voxel]);
         return sum;

@@ -35,7 +35,7 @@ double next_supply_change(const SubstanceParams& params, double time);
 /// substances.
 std::vector<std::vector<double>> cell_concentrations(const World& world);
 
-/// What each cell secretes minus what it takes up, amount / s at the present concentrations;
+/// Secretion minus uptake of each cell, amount / s at the present concentrations;
 /// indexed as cell_concentrations.
 std::vector<std::vector<double>> cell_exchange_rates(const World& world);
 

@@ -15,7 +15,7 @@ bool concerns(const SignalRule& r, Behaviour behaviour, int type) {
 }
 
 /// Direction of a gradient, its length the share of the full effect.
-Vec3 sense(const substances::Grid& grid, const std::vector<double>& field, const Vec3& center,
+Vec3 sense(const substances::VoxelGrid& grid, const std::vector<double>& field, const Vec3& center,
            double radius, double sensitivity) {
   const Vec3 gradient = substances::gradient_at(grid, field, center);
   const double steep = gradient.norm(), here = substances::interpolate(grid, field, center);

@@ -12,7 +12,7 @@ constexpr int kPiecesAround = 12;
 
 }  // namespace
 
-void add_vessel_feed(const substances::Grid& grid, const geometry::Network& vessels,
+void add_vessel_feed(const substances::VoxelGrid& grid, const geometry::Network& vessels,
                      double permeability, double concentration, substances::Medium& medium) {
   const Box box = grid.box();
   for (std::size_t k = 0; k < vessels.segment.size(); ++k) {

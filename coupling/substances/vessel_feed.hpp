@@ -10,7 +10,7 @@ namespace acinus::coupling {
 /// The area of a wall counts in the voxels it passes through; parts outside the box count nothing.
 /// @param permeability  um/s
 /// @pre medium.gain and loss have a number per voxel
-void add_vessel_feed(const substances::Grid& grid, const geometry::Network& vessels,
+void add_vessel_feed(const substances::VoxelGrid& grid, const geometry::Network& vessels,
                      double permeability, double concentration, substances::Medium& medium);
 
 }  // namespace acinus::coupling

@@ -47,7 +47,7 @@ struct SignalRule {
 };
 
 struct SubstanceParams {
-  substances::Grid grid;
+  substances::VoxelGrid grid;
   std::vector<Substance> substance;
   std::vector<SignalRule> rule;
   double longest_step = 0;  ///< s; 0: the step of the tissue

@@ -78,7 +78,7 @@ void check_size(const Scene& scene, const Box& box, double spacing) {
 
 substances::Medium make_medium(const Scene& scene, const SubstanceBlock& b,
                                const coupling::World& world) {
-  const substances::Grid& grid = world.params.substances.grid;
+  const substances::VoxelGrid& grid = world.params.substances.grid;
   substances::Medium m;
   m.diffusion = b.diffusion;
   m.decay = b.decay;

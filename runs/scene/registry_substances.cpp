@@ -7,7 +7,7 @@ namespace {
 
 using substances::FaceKind;
 
-void describe_face(Visitor& v, substances::Face& b) {
+void describe_face(Visitor& v, substances::FaceCondition& b) {
   choice(v,
          {.name = "kind",
           .meaning = "no_flux: nothing passes; fixed: the concentration at the face is value; "

@@ -14,7 +14,7 @@ namespace acinus::runs {
 /// Face of the box, in the order of substances::Medium::face.
 enum class BoxFace { kXLow, kXHigh, kYLow, kYHigh, kZLow, kZHigh };
 
-struct FaceEntry : substances::Face {
+struct FaceEntry : substances::FaceCondition {
   BoxFace side = BoxFace::kXLow;
 };
 
@@ -38,8 +38,8 @@ struct SubstanceBlock {
   double diffusion = 0;  ///< um^2/s
   double decay = 0;      ///< 1/s
   double initial = 0;
-  Schedule course;            ///< factor on what the outside supplies; empty: 1
-  substances::Face boundary;  ///< of all faces of the box but those in `faces`
+  Schedule course;                     ///< factor on what the outside supplies; empty: 1
+  substances::FaceCondition boundary;  ///< of all faces of the box but those in `faces`
   std::vector<FaceEntry> faces;
   std::vector<SourceEntry> sources;
   std::optional<VesselFeed> vessels;

@@ -42,7 +42,7 @@ TEST(Substances, CellsOfBothModelsHaveTheirVolumeInVoxels) {
   std::size_t body = 0;
   for_each_cell(w.state, [&](const Cell& c) {
     double sum = 0;
-    for (const substances::Share& s : shares.of(body)) sum += s.volume;
+    for (const substances::VoxelShare& s : shares.of(body)) sum += s.volume;
     const double volume = volume_of(w.state, c).at(0);
     EXPECT_NEAR(sum, volume, (c.deformable ? 0.05 : 1e-9) * volume);
     EXPECT_NEAR(mean[0][c.index], 1 + 2 * center_of(w.state, c).x() / 200, 0.01);
@@ -201,7 +201,7 @@ TEST(Substances, CellsInLysisTakeUpNothing) {
 }
 
 TEST(Substances, VesselsFeedAlongTheirWalls) {
-  const substances::Grid g = substances::make_grid({Vec3::Zero(), Vec3::Constant(100)}, 5);
+  const substances::VoxelGrid g = substances::make_grid({Vec3::Zero(), Vec3::Constant(100)}, 5);
   geometry::Network vessel;
   vessel.node = {Vec3(10, 50, 50), Vec3(90, 50, 50), Vec3(300, 50, 50)};
   vessel.segment = {{0, 1}, {1, 2}};

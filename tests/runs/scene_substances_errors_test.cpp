@@ -18,7 +18,7 @@ std::string scene_with_substances(const std::string& blocks, const std::string& 
          blocks + "}";
 }
 
-/// What is wrong, without the place.
+/// Complaint about a scene, without the place.
 std::string substance_complaint(const std::string& text) {
   const std::string all = failure(text);
   const std::size_t at = all.find(" /");

@@ -16,7 +16,7 @@ namespace {
 /// Error of c = 1 + cos(pi x / L) exp(-(D (pi / L)^2 + k) t) after `time`, 1 decaying too.
 double mode_error(int n, double step, double time) {
   const double edge = 100, diffusion = 50, decay = 0.002;
-  const Grid g = cube(edge, n);
+  const VoxelGrid g = cube(edge, n);
   Medium m;
   m.diffusion = diffusion;
   m.decay = decay;
@@ -42,7 +42,7 @@ TEST(Diffusion, IsOfSecondOrderInSpace) {
   // Steady decay from a face of fixed concentration: cosh((L - x) / l) / cosh(L / l).
   const double edge = 100, length = 20;
   const auto error = [&](int n) {
-    const Grid g = cube(edge, n);
+    const VoxelGrid g = cube(edge, n);
     Medium m;
     m.diffusion = 10;
     m.decay = m.diffusion / length / length;
@@ -64,7 +64,7 @@ TEST(Diffusion, SpreadsAPointAsAGaussian) {
   // M / (4 pi D t)^(3/2) exp(-r^2 / 4 D t) in a box whose faces it does not reach.
   const double edge = 160, diffusion = 50, time = 4;
   const auto error = [&](int n, double step) {
-    const Grid g = cube(edge, n);
+    const VoxelGrid g = cube(edge, n);
     Medium m;
     m.diffusion = diffusion;
     const Vec3 middle = Vec3::Constant(edge / 2);
@@ -87,7 +87,7 @@ TEST(Diffusion, SpreadsAPointAsAGaussian) {
 }
 
 TEST(Diffusion, StaysPositiveInLongSteps) {
-  const Grid g = cube(100, 20);
+  const VoxelGrid g = cube(100, 20);
   Medium m;
   m.diffusion = 1000;
   std::vector<double> c(g.n_voxel(), 0.0);
@@ -100,7 +100,7 @@ TEST(Diffusion, StaysPositiveInLongSteps) {
 TEST(Diffusion, FaceWithACoefficientIsARobinWall) {
   // Flux P (c_out - c(0)) = D (c(0) - 0) / L between a wall and a face held at 0: a straight line.
   const double edge = 80, diffusion = 30, permeability = 0.7, outside = 5;
-  const Grid g = cube(edge, 9);
+  const VoxelGrid g = cube(edge, 9);
   Medium m;
   m.diffusion = diffusion;
   m.face[2] = {FaceKind::kExchange, outside, permeability};
@@ -114,7 +114,7 @@ TEST(Diffusion, FaceWithACoefficientIsARobinWall) {
 }
 
 TEST(Diffusion, BalancesToRoundOffWhateverTheTolerance) {
-  const Grid g = make_grid({Vec3(-3, 2, 7), Vec3(90, 110, 80)}, 7.3);
+  const VoxelGrid g = make_grid({Vec3(-3, 2, 7), Vec3(90, 110, 80)}, 7.3);
   Medium m;
   m.diffusion = 20;
   m.decay = 0.01;
@@ -134,7 +134,7 @@ TEST(Diffusion, BalancesToRoundOffWhateverTheTolerance) {
 }
 
 TEST(Diffusion, HasTheSameBitsWithMoreThreads) {
-  const Grid g = cube(300, 37);  // more voxels than threads are worth
+  const VoxelGrid g = cube(300, 37);  // more voxels than threads are worth
   Medium m;
   m.diffusion = 200;
   m.decay = 0.001;

@@ -28,7 +28,7 @@ struct Ball {
 double ball_error(double thiele, int n) {
   const Ball exact{50, thiele};
   const double half = 100;
-  const Grid g =
+  const VoxelGrid g =
       make_grid({Vec3::Constant(-half), Vec3::Constant(half)}, 2 * half / n * (1 + 1e-12));
   Medium m;
   m.diffusion = 10;
@@ -64,10 +64,10 @@ TEST(Exchange, BallWithUptakeFollowsItsThieleModulus) {
 
 /// One voxel without diffusion, filled to a half by a body.
 struct OneVoxel {
-  Grid grid = make_grid({Vec3::Zero(), Vec3::Constant(10)}, 10);
+  VoxelGrid grid = make_grid({Vec3::Zero(), Vec3::Constant(10)}, 10);
   Medium medium;
   Shares shares;
-  OneVoxel() { shares.add(std::vector<Share>{{0, 500}}); }
+  OneVoxel() { shares.add(std::vector<VoxelShare>{{0, 500}}); }
   double after(const Exchange& e, double start, double step) const {
     std::vector<double> c{start};
     run(grid, medium, {shares, {&e, 1}}, {step, 0, kTight}, c);
@@ -100,7 +100,7 @@ TEST(Exchange, SecretionStopsAtSaturation) {
 }
 
 TEST(Exchange, SupplyScalesFacesAndSources) {
-  const Grid g = cube(40, 4);
+  const VoxelGrid g = cube(40, 4);
   Medium m;
   m.diffusion = 100;
   m.face.fill({FaceKind::kFixed, 10, 0});
@@ -113,7 +113,7 @@ TEST(Exchange, SupplyScalesFacesAndSources) {
 }
 
 TEST(Exchange, AmountsBalanceAndBodiesAddUp) {
-  const Grid g = cube(100, 12);
+  const VoxelGrid g = cube(100, 12);
   Medium m;
   m.diffusion = 100;
   m.decay = 1e-4;

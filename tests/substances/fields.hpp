@@ -16,13 +16,13 @@ inline constexpr double kSteady = 1e12;
 
 /// Bodies that exchange nothing.
 inline const Shares kNoShares{};
-inline Bodies no_bodies() { return {kNoShares, {}}; }
+inline ExchangingBodies no_bodies() { return {kNoShares, {}}; }
 
-inline Grid cube(double edge, int n) {
+inline VoxelGrid cube(double edge, int n) {
   return make_grid({Vec3::Zero(), Vec3::Constant(edge)}, edge / n * (1 + 1e-12));
 }
 
-inline std::vector<double> sample(const Grid& g, const std::function<double(const Vec3&)>& f) {
+inline std::vector<double> sample(const VoxelGrid& g, const std::function<double(const Vec3&)>& f) {
   std::vector<double> c;
   for (int k = 0; k < g.n[2]; ++k)
     for (int j = 0; j < g.n[1]; ++j)
@@ -32,7 +32,7 @@ inline std::vector<double> sample(const Grid& g, const std::function<double(cons
 
 /// Largest difference from an exact field where `counts` is true.
 inline double largest_error(
-    const Grid& g, std::span<const double> c, const std::function<double(const Vec3&)>& exact,
+    const VoxelGrid& g, std::span<const double> c, const std::function<double(const Vec3&)>& exact,
     const std::function<bool(const Vec3&)>& counts = [](const Vec3&) { return true; }) {
   double largest = 0;
   std::size_t v = 0;
@@ -45,7 +45,7 @@ inline double largest_error(
 }
 
 /// Root mean square difference from an exact field where `counts` is true.
-inline double mean_error(const Grid& g, std::span<const double> c,
+inline double mean_error(const VoxelGrid& g, std::span<const double> c,
                          const std::function<double(const Vec3&)>& exact,
                          const std::function<bool(const Vec3&)>& counts) {
   double sum = 0, n = 0;
@@ -60,8 +60,8 @@ inline double mean_error(const Grid& g, std::span<const double> c,
   return std::sqrt(sum / n);
 }
 
-inline Budget run(const Grid& g, const Medium& m, const Bodies& bodies, const Advance& how,
-                  std::vector<double>& c, std::span<double> gained = {}) {
+inline Budget run(const VoxelGrid& g, const Medium& m, const ExchangingBodies& bodies,
+                  const Advance& how, std::vector<double>& c, std::span<double> gained = {}) {
   Solver solver;
   solver.resize(g.n);
   return advance(g, m, bodies, how, solver, c, gained);

@@ -26,7 +26,7 @@ TEST(Multigrid, CycleIsSymmetric) {
   grids.resize(n);
   const std::size_t n_voxel = 13 * 6 * 9;
   grids.set(numbers(n_voxel, 1, 3, 1), {4, 5, 6});
-  const Layout& at = grids.layout();
+  const PaddedLayout& at = grids.layout();
   const auto spread = [&](std::uint64_t salt) {
     std::vector<float> v(at.size, 0.0F);
     for (int k = 0; k < n[2]; ++k)

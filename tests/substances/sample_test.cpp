@@ -10,7 +10,7 @@ namespace acinus::substances {
 namespace {
 
 TEST(Sample, LinearFieldsAreExact) {
-  const Grid g = make_grid({Vec3(-10, 0, 5), Vec3(40, 30, 60)}, 4.3);
+  const VoxelGrid g = make_grid({Vec3(-10, 0, 5), Vec3(40, 30, 60)}, 4.3);
   const Vec3 slope(0.3, -0.2, 0.7);
   const std::vector<double> c = sample(g, [&](const Vec3& x) { return 2 + slope.dot(x); });
   for (const Vec3& x : {Vec3(3, 7, 20), Vec3(-4, 25, 33.3), Vec3(21, 14, 50)}) {
@@ -23,7 +23,7 @@ TEST(Sample, LinearFieldsAreExact) {
 
 TEST(Sample, GradientIsOfSecondOrder) {
   const auto error = [](int n) {
-    const Grid g = cube(100, n);
+    const VoxelGrid g = cube(100, n);
     const std::vector<double> c = sample(g, [](const Vec3& x) { return std::sin(0.05 * x.x()); });
     const Vec3 x(40.3, 51.7, 62.1);
     return std::abs(gradient_at(g, c, x).x() - 0.05 * std::cos(0.05 * x.x()));
@@ -33,7 +33,7 @@ TEST(Sample, GradientIsOfSecondOrder) {
 }
 
 TEST(Sample, GridOfOneVoxelHasNoGradient) {
-  const Grid g = cube(10, 1);
+  const VoxelGrid g = cube(10, 1);
   const std::vector<double> c{4};
   EXPECT_EQ(gradient_at(g, c, Vec3(1, 2, 3)), Vec3(0, 0, 0));
   EXPECT_EQ(interpolate(g, c, Vec3(1, 2, 3)), 4);

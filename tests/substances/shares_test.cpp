@@ -13,15 +13,15 @@
 namespace acinus::substances {
 namespace {
 
-double volume_of(const std::vector<Share>& shares) {
+double volume_of(const std::vector<VoxelShare>& shares) {
   double sum = 0;
-  for (const Share& s : shares) sum += s.volume;
+  for (const VoxelShare& s : shares) sum += s.volume;
   return sum;
 }
 
-Vec3 middle_of(const Grid& g, const std::vector<Share>& shares) {
+Vec3 middle_of(const VoxelGrid& g, const std::vector<VoxelShare>& shares) {
   Vec3 sum = Vec3::Zero();
-  for (const Share& s : shares) {
+  for (const VoxelShare& s : shares) {
     const auto v = static_cast<int>(s.voxel);
     sum += s.volume * g.center(v % g.n[0], v / g.n[0] % g.n[1], v / (g.n[0] * g.n[1]));
   }
@@ -36,36 +36,36 @@ std::vector<Vec3> ball_nodes(const geometry::Topology& t, const Vec3& center, do
 }
 
 TEST(Shares, OfASphereAreItsVolumeAndPlace) {
-  const Grid g = cube(120, 12);
+  const VoxelGrid g = cube(120, 12);
   for (const Vec3& center : {Vec3(60, 60, 60), Vec3(51.3, 67.9, 44.2), Vec3(30, 35, 40)}) {
-    const std::vector<Share> shares = share_sphere(g, center, 12);
+    const std::vector<VoxelShare> shares = share_sphere(g, center, 12);
     EXPECT_NEAR(volume_of(shares), sphere_volume(12), 1e-9);
     // Columns a third of a voxel apart leave an error of a few per cent of it.
     EXPECT_LT((middle_of(g, shares) - center).norm(), 0.5);
-    for (const Share& s : shares) EXPECT_LE(s.volume, 1.06 * g.voxel_volume());
+    for (const VoxelShare& s : shares) EXPECT_LE(s.volume, 1.06 * g.voxel_volume());
   }
 }
 
 TEST(Shares, OfASurfaceAreThoseOfItsInside) {
-  const Grid g = cube(120, 15);
+  const VoxelGrid g = cube(120, 15);
   const geometry::Topology& t = geometry::shared_icosphere(642);
   const Vec3 center(55.1, 61.7, 48.3);
   const std::vector<Vec3> node = ball_nodes(t, center, 20);
-  const std::vector<Share> surface = share_surface(g, node, t.triangle);
+  const std::vector<VoxelShare> surface = share_surface(g, node, t.triangle);
   const double inside = volume_of(surface);
   EXPECT_NEAR(inside, sphere_volume(20), 0.02 * sphere_volume(20));  // chords lie inside the ball
-  const std::vector<Share> ball = share_sphere(g, center, 20);
+  const std::vector<VoxelShare> ball = share_sphere(g, center, 20);
   double difference = 0;
   std::vector<double> of_voxel(g.n_voxel(), 0.0);
-  for (const Share& s : ball) of_voxel[s.voxel] += s.volume;
-  for (const Share& s : surface) of_voxel[s.voxel] -= s.volume;
+  for (const VoxelShare& s : ball) of_voxel[s.voxel] += s.volume;
+  for (const VoxelShare& s : surface) of_voxel[s.voxel] -= s.volume;
   for (const double d : of_voxel) difference += std::abs(d);
   EXPECT_LT(difference, 0.04 * inside);
 }
 
 TEST(Shares, OfABoxWithEdgesOnColumnsAreExact) {
   // Every edge of the mesh lies on vertical planes that columns may hit.
-  const Grid g = cube(40, 4);
+  const VoxelGrid g = cube(40, 4);
   const Vec3 low(10, 10, 5), high(30, 20, 25);
   std::vector<Vec3> node;
   for (int k = 0; k < 8; ++k)
@@ -73,32 +73,32 @@ TEST(Shares, OfABoxWithEdgesOnColumnsAreExact) {
   const std::vector<std::array<int, 3>> triangle{{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
                                                  {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
                                                  {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  const std::vector<Share> shares = share_surface(g, node, triangle);
+  const std::vector<VoxelShare> shares = share_surface(g, node, triangle);
   EXPECT_NEAR(volume_of(shares), 20 * 10 * 20, 1e-9);
   EXPECT_EQ(shares.size(), 6U);
-  for (const Share& s : shares) {
+  for (const VoxelShare& s : shares) {
     const bool whole = s.voxel / 16 == 1;  // the middle layer
     EXPECT_NEAR(s.volume, whole ? 1000 : 500, 1e-9);
   }
 }
 
 TEST(Shares, OutsideTheBoxCountInTheNearestVoxel) {
-  const Grid g = cube(40, 4);
-  const std::vector<Share> shares = share_sphere(g, Vec3(-100, 15, 15), 3);
+  const VoxelGrid g = cube(40, 4);
+  const std::vector<VoxelShare> shares = share_sphere(g, Vec3(-100, 15, 15), 3);
   EXPECT_NEAR(volume_of(shares), sphere_volume(3), 1e-9);
-  for (const Share& s : shares) EXPECT_EQ(s.voxel % 4, 0U);
+  for (const VoxelShare& s : shares) EXPECT_EQ(s.voxel % 4, 0U);
 }
 
 TEST(Shares, OfASmallBodyAreInOneVoxel) {
-  const Grid g = cube(40, 4);
-  const std::vector<Share> shares = share_sphere(g, Vec3(15, 25, 35), 0.01);
+  const VoxelGrid g = cube(40, 4);
+  const std::vector<VoxelShare> shares = share_sphere(g, Vec3(15, 25, 35), 0.01);
   ASSERT_EQ(shares.size(), 1U);
   EXPECT_EQ(shares[0].voxel, g.index(1, 2, 3));
 }
 
 TEST(Shares, MeanIsWeightedByVolume) {
   const std::vector<double> field{1, 5};
-  EXPECT_DOUBLE_EQ(mean_over(std::vector<Share>{{0, 3}, {1, 1}}, field), 2);
+  EXPECT_DOUBLE_EQ(mean_over(std::vector<VoxelShare>{{0, 3}, {1, 1}}, field), 2);
 }
 
 }  // namespace
