@@ -14,7 +14,7 @@ namespace acinus::coupling {
 namespace {
 
 /// Number of cells below which threads cost more than they save.
-constexpr std::size_t kWorthThreads = 50;
+constexpr std::size_t kParallelShares = 50;
 
 std::vector<Cell> list_cells(const State& s) {
   std::vector<Cell> cells;
@@ -70,7 +70,7 @@ std::vector<substances::Exchange> exchange_of_cells(const Substance& substance, 
                                                     const std::vector<Cell>& cells,
                                                     const substances::Shares& shares) {
   std::vector<substances::Exchange> exchange(cells.size());
-  for_each_index(cells.size(), cells.size() > kWorthThreads, [&](std::size_t k) {
+  for_each_index(cells.size(), cells.size() > kParallelShares, [&](std::size_t k) {
     exchange[k] = exchange_of(substance, s, cells[k], shares.of(k));
   });
   return exchange;
@@ -107,7 +107,7 @@ void begin_substances(const SubstanceParams& p, State& s) {
 substances::Shares share_cells(const SubstanceParams& p, const State& s) {
   const std::vector<Cell> cells = list_cells(s);
   std::vector<std::vector<substances::VoxelShare>> share(cells.size());
-  for_each_index(cells.size(), cells.size() > kWorthThreads,
+  for_each_index(cells.size(), cells.size() > kParallelShares,
                  [&](std::size_t k) { share[k] = share_cell(p.grid, s, cells[k]); });
   substances::Shares shares;
   for (const auto& of_cell : share) shares.add(of_cell);

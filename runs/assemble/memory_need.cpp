@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "coupling/generate/domain.hpp"
 #include "runs/assemble/build_boundary.hpp"
+#include "runs/assemble/build_substances.hpp"
 #include "runs/assemble/place_cells.hpp"
 
 namespace acinus::runs {
@@ -33,13 +34,26 @@ double count_branches(const Scene& scene) {
   return scene.lobule->branch_density * coupling::make_domain(lobule_parameters(scene)).volume;
 }
 
+/// Memory of fields in a box that the scene gives, bytes; others are checked when cells are placed.
+double bytes_of_fields(const Scene& scene) {
+  const SubstanceGridBlock& g = scene.substance_grid;
+  if (scene.substances.empty() || !g.box) return 0;
+  double spacing = g.spacing;
+  if (spacing == 0) {
+    spacing = std::numeric_limits<double>::infinity();
+    for (const auto& [name, type] : scene.cell_types) spacing = std::min(spacing, type.radius);
+  }
+  return substance_memory(substances::count_voxels({(*g.box)[0], (*g.box)[1]}, spacing),
+                          scene.substances.size());
+}
+
 std::string in_gigabytes(double bytes) { return fmt::format("{:.3g} GB", 1e-9 * bytes); }
 
 }  // namespace
 
 double estimate_memory(const Scene& scene) {
   return count_wanted_cells(scene) * bytes_per_cell(scene) +
-         count_branches(scene) * kBytesPerBranch;
+         count_branches(scene) * kBytesPerBranch + bytes_of_fields(scene);
 }
 
 void check_memory(const Scene& scene, double limit) {
@@ -47,7 +61,11 @@ void check_memory(const Scene& scene, double limit) {
   if (needed <= limit) return;
   const double vessels = count_branches(scene) * kBytesPerBranch;
   const std::string what =
-      2 * vessels > needed
+      2 * bytes_of_fields(scene) > needed
+          ? std::string(
+                "fields of substances. Take a larger substance_grid.spacing or a smaller "
+                "substance_grid.box")
+      : 2 * vessels > needed
           ? fmt::format(
                 "{:.3g} branch points of vessels. Take a smaller lobule.height or radius, "
                 "or a smaller lobule.branch_density",

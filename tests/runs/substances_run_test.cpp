@@ -65,7 +65,7 @@ TEST_F(SubstancesRun, ResumedIsBitForBit) {
     const Json end = finish(name + "_whole", more);
     std::printf("%s: %s\n", name.c_str(), end["cells"].dump().c_str());
     EXPECT_GE(end["cells"]["divisions"], 3);
-    finish(name + "_parts", with({"--until", "55 min"}, more));
+    finish(name + "_parts", with({"--until", "40 min"}, more));
     finish(name + "_parts", with({"--resume", "--until", "2 h"}, more));
     finish(name + "_parts", with({"--resume"}, more));
     expect_same(name + "_whole", name + "_parts");
@@ -105,6 +105,12 @@ TEST_F(SubstancesRun, CheckTellsTheGrid) {
   const Outcome large = call({"check", "tissue.json", "--set", "substance_grid.spacing=0.01 um"});
   EXPECT_EQ(large.code, 2);
   EXPECT_NE(large.text.find("GB of memory, and this machine has"), std::string::npos) << large.text;
+  const Outcome box = call({"check", "tissue.json", "--set",
+                            R"(substance_grid.box=[["-1 m", "-1 m", "-1 m"],)"
+                            R"( ["1 m", "1 m", "1 m"]])"});
+  EXPECT_EQ(box.code, 2);
+  EXPECT_NE(box.text.find("most of it for fields of substances. Take a larger"), std::string::npos)
+      << box.text;
   const Outcome outside = call({"check", "tissue.json", "--set",
                                 R"(substance_grid.box=[["0 um", "0 um", "0 um"],)"
                                 R"( ["50 um", "50 um", "50 um"]])"});
