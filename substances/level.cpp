@@ -209,16 +209,19 @@ void set_diagonal(std::span<const double> all, Level<T>& l) {
   });
 }
 
-double multiply(const Level<double>& l, const double* x, double* y) {
+double multiply_plane(const Level<double>& l, const double* x, double* y, int k) {
   const LevelRow<double> row = level_row(l);
-  return sum_planes(l.layout.n[2], l.layout.n_voxel(), [&](int k) {
-    double sum = 0;
-    for (int j = 0; j < l.layout.n[1]; ++j) {
-      const std::size_t at = l.layout.row(j, k);
-      sum += multiply_row(row, row_at(l, x, j, k), l.diagonal.data() + at, x + at, y + at);
-    }
-    return sum;
-  });
+  double sum = 0;
+  for (int j = 0; j < l.layout.n[1]; ++j) {
+    const std::size_t at = l.layout.row(j, k);
+    sum += multiply_row(row, row_at(l, x, j, k), l.diagonal.data() + at, x + at, y + at);
+  }
+  return sum;
+}
+
+double multiply(const Level<double>& l, const double* x, double* y) {
+  return sum_planes(l.layout.n[2], l.layout.n_voxel(),
+                    [&](int k) { return multiply_plane(l, x, y, k); });
 }
 
 void smooth(const Level<float>& l, const float* b, float* x, bool forward, bool from_zero) {

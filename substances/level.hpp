@@ -57,6 +57,9 @@ void set_diagonal(std::span<const double> own, Level<T>& level);
 /// y = A x.   @return x . y, added plane by plane
 double multiply(const Level<double>& level, const double* x, double* y);
 
+/// Plane k of y = A x.   @return its part of x . y
+double multiply_plane(const Level<double>& level, const double* x, double* y, int k);
+
 /// Sweeps of red-black Gauss-Seidel. `forward`: first the even voxels, then the odd ones.
 /// @param x  [size], changed; from_zero: overwritten
 void smooth(const Level<float>& level, const float* b, float* x, bool forward, bool from_zero);

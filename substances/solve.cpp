@@ -44,6 +44,28 @@ PlaneRange plane_of(const PaddedLayout& l, int k) {
   return {l.row(0, k), static_cast<std::size_t>(l.n[1]) * l.stride};
 }
 
+/// p = z + beta p, q = A p.   @return p . q, added plane by plane
+double turn_and_multiply(const Level<double>& level, double beta, const float* z, double* p,
+                         double* q) {
+  const PaddedLayout& l = level.layout;
+  const auto turn = [&](int k) {
+    const auto [first, n] = plane_of(l, k);
+    turn_row(n, beta, z + first, p + first);
+  };
+  if (thread_count() > 1 && l.n_voxel() > kParallelVoxels) {
+    for_each_plane(l.n[2], l.n_voxel(), turn);
+    return multiply(level, p, q);
+  }
+  // The product follows one plane behind, while its neighbours are in the cache.
+  double sum = 0;
+  turn(0);
+  for (int k = 0; k < l.n[2]; ++k) {
+    if (k + 1 < l.n[2]) turn(k + 1);
+    sum += multiply_plane(level, p, q, k);
+  }
+  return sum;
+}
+
 /// Copies voxels into padded rows or back, calling f(padded place, voxel).
 template <class F>
 void for_each_voxel(const PaddedLayout& l, const F& f) {
@@ -103,11 +125,7 @@ SolveResult Solver::solve(const StepSystem& system, double tolerance, std::span<
     });
     const double beta = result.iterations == 0 ? 0 : rz / rz_before;
     rz_before = rz;
-    for_each_plane(l.n[2], l.n_voxel(), [&](int k) {
-      const auto [first, n] = plane_of(l, k);
-      turn_row(n, beta, z_.data() + first, p_.data() + first);
-    });
-    const double pq = multiply(level_, p_.data(), q_.data());
+    const double pq = turn_and_multiply(level_, beta, z_.data(), p_.data(), q_.data());
     if (!(pq > 0)) break;
     const double alpha = rz / pq;
     rr = sum_planes(l.n[2], l.n_voxel(), [&](int k) {

@@ -9,17 +9,17 @@
 namespace acinus::runs {
 namespace {
 
-/// Eight cells that divide, starve in the middle and follow a gradient, some of them deformable.
+/// Five cells that divide, starve in the middle and follow a gradient, some of them deformable.
 constexpr const char* kTissue = R"({
   "seed": 3,
-  "time": {"end": "4 h", "step": "5 min", "tolerance": "0.1 um"},
+  "time": {"end": "200 min", "step": "5 min", "tolerance": "0.1 um"},
   "solver": {"tolerance": 0.02},
   "cell_types": {"tumour": {"dcm": {"nodes": 42}, "adhesion": "1e-5 J/m^2",
     "cycle": {"time": "3 h", "spread": 0.1, "mitosis": "30 min", "start": "random"},
     "death": {"mode": "lysis", "duration": "40 min"},
     "exchange": [{"substance": "oxygen", "uptake_max": "2 1/s", "half_max": 1},
                  {"substance": "signal", "secretion": "1e-3 1/s", "saturation": 4, "uptake": "1e-4 1/s"}]}},
-  "cells": {"source": "clump", "count": 8},
+  "cells": {"source": "clump", "count": 5},
   "substances": [
     {"name": "oxygen", "unit": "mmHg", "diffusion": "2000 um^2/s", "initial": 38,
      "boundary": {"kind": "fixed", "value": 38}},
@@ -69,7 +69,7 @@ TEST_F(SubstancesRun, ResumedIsBitForBit) {
     finish(name + "_parts", with({"--resume", "--until", "2 h"}, more));
     finish(name + "_parts", with({"--resume"}, more));
     expect_same(name + "_whole", name + "_parts");
-    for (const char* frame : {"frame_000001.vtkhdf", "frame_000006.vtkhdf"})
+    for (const char* frame : {"frame_000001.vtkhdf", "frame_000005.vtkhdf"})
       EXPECT_TRUE(io::read_text_file(path(name + "_whole/fields/" + frame)) ==
                   io::read_text_file(path(name + "_parts/fields/" + frame)))
           << name << " " << frame;
