@@ -27,6 +27,7 @@
 #include "bench/tissue/patch.hpp"
 #include "bench/tissue/pull_off.hpp"
 #include "bench/tissue/relaxation.hpp"
+#include "bench/tissue/sheet_strength.hpp"
 #include "bench/tissue/sleeping_lobule.hpp"
 #include "bench/work_precision/work_precision.hpp"
 #include "core/error.hpp"
@@ -49,6 +50,7 @@ const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
       {"cbm1m", bench_cbm1m},
       {"contact-laws", bench_contact_laws},
       {"contact-laws-pull-off", bench_contact_laws_pull_off},
+      {"contact-laws-strength", bench_sheet_strength},
       {"dcm216", bench_dcm216},
       {"dcm27", bench_dcm27},
       {"fields", bench_fields},
