@@ -1,7 +1,7 @@
 #pragma once
 /// Fields of substances at the frames of a run: fields/frame_000000.vtkhdf, ... beside the run
-/// file, each a VTKHDF ImageData whose points are the centres of voxels, and fields.vtkhdf.series, which lists
-/// them with their times for ParaView.
+/// file, each a VTKHDF ImageData whose points are the centres of voxels, and fields.vtkhdf.series,
+/// which lists them with their times for ParaView.
 
 #include <array>
 #include <string>

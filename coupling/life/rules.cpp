@@ -101,9 +101,8 @@ void look_at_rules(World& world, Workspace& work, Plan& plan) {
       (cycle_of(world.params, s, c).death.lysis ? plan.lyse : plan.remove).push_back(c);
       return;
     }
-    if (cycle.duration > 0 &&
-        (is_inhibited(cycle_of(world.params, s, c)) || !p.rule.empty() || p.proliferation ||
-         signals_growth))
+    if (cycle.duration > 0 && (is_inhibited(cycle_of(world.params, s, c)) || !p.rule.empty() ||
+                               p.proliferation || signals_growth))
       set_growth(world.params, s, c, factor[c.index]);
   });
 }

@@ -9,6 +9,7 @@
 #include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
 #include "coupling/world/cell.hpp"
+#include "substances/diffusion.hpp"
 
 namespace acinus::coupling {
 namespace {

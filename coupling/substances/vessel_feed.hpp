@@ -2,7 +2,8 @@
 /// Vessels as sources of a substance along their length.
 
 #include "geometry/network.hpp"
-#include "substances/diffusion.hpp"
+#include "substances/grid.hpp"
+#include "substances/medium.hpp"
 
 namespace acinus::coupling {
 

@@ -7,8 +7,8 @@
 
 #include "core/numbers/schedule.hpp"
 #include "core/vec.hpp"
-#include "substances/diffusion.hpp"
 #include "substances/grid.hpp"
+#include "substances/medium.hpp"
 
 namespace acinus::coupling {
 

@@ -146,8 +146,8 @@ struct State {
   /// [dcm lanes, then cbm cells] s, clock time of the last change of model; empty: none has changed
   std::vector<double> model_since;
   std::vector<FadingForce> fading;
-  std::vector<double> settle_pressure;  ///< kPa per cell at the last check of the settling phase
-  double settle_time = -1;              ///< s, time of that check
+  std::vector<double> settle_pressure;    ///< kPa per cell at the last check of the settling phase
+  double settle_time = -1;                ///< s, time of that check
   std::vector<SubstanceState> substance;  ///< empty: none
   /// [dcm lanes, then cbm cells] written before each step; empty: no cell follows a gradient
   std::vector<Guidance> guidance;

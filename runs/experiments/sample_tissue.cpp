@@ -11,6 +11,7 @@
 #include "coupling/substances/fields.hpp"
 #include "coupling/world/cell.hpp"
 #include "runs/experiments/observables.hpp"
+#include "substances/diffusion.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -13,6 +13,7 @@
 #include "runs/experiments/experiment.hpp"
 #include "runs/experiments/figures.hpp"
 #include "runs/session/sphere_overlaps.hpp"
+#include "substances/diffusion.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -10,6 +10,7 @@
 #include "coupling/substances/fields.hpp"
 #include "coupling/substances/responses.hpp"
 #include "coupling/substances/vessel_feed.hpp"
+#include "substances/diffusion.hpp"
 #include "substances/sample.hpp"
 #include "tests/coupling/lives.hpp"
 
