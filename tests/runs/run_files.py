@@ -6,8 +6,8 @@ import re
 import h5py
 
 FILES = ["run.vtkhdf", "checkpoint.h5"]
-# Of the process, not of the cells: when it ran, and for how long.
-OF_THE_PROCESS = re.compile(r"provenance/(start|end|command_line)|.*(wall|cpu)_s(@.*)?|@digest")
+# Of the process, not of the cells: when it ran, how often it was resumed, and for how long.
+OF_THE_PROCESS = re.compile(r"provenance/(start|end|command_line)|state/attempts/.*|.*(wall|cpu)_s(@.*)?|@digest")
 
 
 def read(path, but=OF_THE_PROCESS):
