@@ -67,8 +67,7 @@ int check_scene(const CheckArguments& arguments) {
       runs::name_of_choice(scene.cells.source),
       built.vessel_length > 0 ? fmt::format(", {:.0f} um of vessels", built.vessel_length) : "",
       scene.time.end / 3600, scene.hash);
-  if (scene.accuracy != runs::Accuracy::kByKey)
-    fmt::print("{}\n", runs::describe_accuracy(scene));
+  if (scene.accuracy != runs::Accuracy::kByKey) fmt::print("{}\n", runs::describe_accuracy(scene));
   for (const std::string& note : built.notes.info) fmt::print("{}\n", note);
   for (const std::string& name : later)
     fmt::print("{}: calibrated when the scene runs, if that was not done before\n", name);
