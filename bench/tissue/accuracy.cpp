@@ -97,16 +97,6 @@ Figures read_figures(const std::string& folder) {
   return figures;
 }
 
-void use(const AccuracySettings& a, runs::Scene& scene) {
-  scene.numerics.max_step = a.step;
-  scene.numerics.tolerance = a.tolerance;
-  scene.numerics.max_move = a.max_move;
-  scene.numerics.cg.tolerance = a.solver;
-  scene.contact.skin = a.skin;
-  scene.contact.quadrature = a.quadrature;
-  for (auto& [name, type] : scene.cell_types) type.dcm.nodes = a.nodes;
-}
-
 /// The same mesh and contact points with half the step and a quarter of the solver's residual.
 AccuracySettings with_short_steps(AccuracySettings a) {
   a.step /= 2;
@@ -135,7 +125,7 @@ Outcome run_all(const JudgedScene& judged, const std::string& label, const Accur
   for (int k = 0; k < options.seeds; ++k) {
     runs::Scene scene =
         runs::parse_scene(judged.text, std::string(judged.name) + ".json", runs::scene_folder());
-    use(a, scene);
+    use_settings(a, scene);
     scene.seed = static_cast<std::uint64_t>(options.first + k);
     set_canonical(scene);
     const std::string folder = fmt::format("{}/{}_{}_{}", root, judged.name, label, scene.seed);

@@ -25,17 +25,11 @@ const NamedAccuracy& named(Accuracy accuracy) {
   return kNamed[static_cast<std::size_t>(accuracy) - 1];
 }
 
-}  // namespace
-
-const AccuracySettings& settings_of(Accuracy accuracy) { return named(accuracy).settings; }
-
-const ExpectedErrors& expected_errors(Accuracy accuracy) { return named(accuracy).errors; }
-
-void apply_accuracy(const Report& report, Scene& scene) {
-  if (scene.accuracy == Accuracy::kByKey) return;
-  const AccuracySettings& a = settings_of(scene.accuracy);
-  const auto set = [&report](const std::string& pointer, auto& field, const auto& value) {
-    if (report.find(pointer) == nullptr) field = value;
+/// Sets the keys of an accuracy whose pointers `may_set` accepts.
+template <class F>
+void set_where(const AccuracySettings& a, Scene& scene, const F& may_set) {
+  const auto set = [&may_set](const std::string& pointer, auto& field, const auto& value) {
+    if (may_set(pointer)) field = value;
   };
   set("/time/step", scene.numerics.max_step, a.step);
   set("/time/tolerance", scene.numerics.tolerance, a.tolerance);
@@ -46,6 +40,22 @@ void apply_accuracy(const Report& report, Scene& scene) {
     set("/contact/quadrature", scene.contact.quadrature, a.quadrature);
   for (auto& [name, type] : scene.cell_types)
     set("/cell_types/" + name + "/dcm/nodes", type.dcm.nodes, a.nodes);
+}
+
+}  // namespace
+
+const AccuracySettings& settings_of(Accuracy accuracy) { return named(accuracy).settings; }
+
+const ExpectedErrors& expected_errors(Accuracy accuracy) { return named(accuracy).errors; }
+
+void use_settings(const AccuracySettings& settings, Scene& scene) {
+  set_where(settings, scene, [](const std::string&) { return true; });
+}
+
+void apply_accuracy(const Report& report, Scene& scene) {
+  if (scene.accuracy == Accuracy::kByKey) return;
+  set_where(settings_of(scene.accuracy), scene,
+            [&](const std::string& pointer) { return report.find(pointer) == nullptr; });
 }
 
 std::string describe_accuracy(const Scene& scene) {

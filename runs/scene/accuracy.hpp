@@ -31,6 +31,9 @@ const AccuracySettings& settings_of(Accuracy accuracy);
 /// Expected errors of a named accuracy.   @pre accuracy != kByKey
 const ExpectedErrors& expected_errors(Accuracy accuracy);
 
+/// Sets all keys of an accuracy but the contact points of the paper's law, which keeps its own.
+void use_settings(const AccuracySettings& settings, Scene& scene);
+
 /// Sets the keys that belong to the scene's accuracy and that its text does not contain. The
 /// paper's law of contact keeps its own contact points.
 /// @param report  of the text that the scene was read from
