@@ -54,6 +54,22 @@ void check_first_word(const CLI::App& app, const std::string& word) {
                           hint.empty() ? "" : " " + hint));
 }
 
+/// Nearest option to one that a command does not have: " Did you mean ...?", or nothing.
+std::string hint_of_options(const CLI::App& app, int argc, const char* const* argv) {
+  const std::vector<CLI::App*> used = app.get_subcommands();
+  if (used.empty()) return {};
+  std::vector<std::string> names;
+  for (const CLI::Option* option : used.front()->get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+    if (!word.starts_with("--") || std::ranges::find(names, word) != names.end()) continue;
+    if (const std::string near = nearest_name(word, names); !near.empty())
+      return did_you_mean(near) + "\n";
+  }
+  return {};
+}
+
 }  // namespace
 
 int run_cli(int argc, const char* const* argv) {
@@ -100,6 +116,7 @@ int run_cli(int argc, const char* const* argv) {
     if (!started_by_mpirun() || Ranks::world().is_root()) {
       fmt::print("{}", out.str());
       fmt::print(stderr, "{}", wrong.str());
+      if (code != 0) fmt::print(stderr, "{}", hint_of_options(app, argc, argv));
     }
     return static_cast<int>(code == 0 ? Exit::kDone : Exit::kBadInput);
   }

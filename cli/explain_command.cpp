@@ -22,6 +22,10 @@ int explain(const std::string& key, bool markdown) {
     fmt::print("{}", runs::explain_markdown());
     return 0;
   }
+  if (const std::string measured = runs::explain_observable(key); !measured.empty()) {
+    fmt::print("{}", measured);
+    return 0;
+  }
   const bool study = key == "study" || key.starts_with("study.");
   const std::vector<runs::Entry>& entries = study ? runs::study_entries() : runs::all_entries();
   fmt::print("{}", key.empty() || key == "study" ? runs::explain_all(entries)
@@ -32,13 +36,14 @@ int explain(const std::string& key, bool markdown) {
 }  // namespace
 
 Command add_explain(CLI::App& app) {
-  CLI::App* command =
-      add_command(app, "explain", "say what a scene key means; without KEY, list all",
-                  "acinus explain cell.radius\n         acinus explain --observables");
+  CLI::App* command = add_command(
+      app, "explain", "say what a scene key or an observable means; without KEY, list all keys",
+      "acinus explain cell.radius\n         acinus explain --observables");
   const auto key = std::make_shared<std::string>();
   const auto markdown = std::make_shared<bool>(false), observables = std::make_shared<bool>(false);
-  CLI::Option* option =
-      command->add_option("KEY", *key, "path or last name of a key; study.KEY: of studies");
+  CLI::Option* option = command->add_option(
+      "KEY", *key,
+      "path or last name of a key, study.KEY of studies, or the name of an observable");
   command->add_flag("--observables", *observables, "list what runs measure in place of keys")
       ->excludes(option);
   command->add_flag("--markdown", *markdown, "all of them as a Markdown page")->excludes(option);

@@ -7,7 +7,7 @@
 namespace acinus::solve {
 
 /// Largest number of rank-one families in a system (volume and area use two).
-inline constexpr std::size_t kMaxFamilies = 4;
+inline constexpr std::size_t kMaxFamilies = 8;
 
 /// Arrays and coefficients of one block, as the kernels read them.
 struct BlockView {

@@ -111,6 +111,17 @@ void note_weak_cortex(const Scene& scene, const dcm::State& cells, Notes& notes)
   }
 }
 
+/// Warns of cells of a size that no animal tissue has: a mistyped unit.
+void note_unusual_radius(const Scene& scene, Notes& notes) {
+  constexpr double kLeast = 1, kMost = 100;  // um
+  for (const auto& [name, type] : scene.cell_types)
+    if (type.radius < kLeast || type.radius > kMost)
+      notes.warnings.push_back(fmt::format(
+          "cell_types.{}.radius is {:.3g} um; cells of animal tissue have {} to {} um. Is the unit "
+          "right?",
+          name, type.radius, kLeast, kMost));
+}
+
 /// Notes rules and rates of life that begin at the end of the scene or later.
 void note_late_rules(const Scene& scene, Notes& notes) {
   const auto note = [&](const std::string& what, double from) {
@@ -210,6 +221,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   check_starts(scene, cells, p.boundary);
   add_cells(scene, cells, built.type_names, p, world.state);
   note_weak_cortex(scene, world.state.dcm, built.notes);
+  note_unusual_radius(scene, built.notes);
   build_substances(scene, world, built.notes);
   if (scene.start_up.enabled) {
     coupling::begin_start_up(world, scene.start_up.initial_radius);

@@ -107,8 +107,8 @@ std::string describe_unshared_frames(const ComparedRun& run, std::optional<doubl
   const auto shared = static_cast<int>(run.frame.size());
   if (shared == frames) return {};
   return fmt::format(
-      "{} of {} frames of {} are at times that all runs have; the others say nothing here", shared,
-      frames, run.summary.folder);
+      "compared at {} common times; {} of {} frames of {} are at other times and not used", shared,
+      frames - shared, frames, run.summary.folder);
 }
 
 }  // namespace acinus::runs

@@ -53,14 +53,30 @@ std::vector<ObservableSection> make_sections() {
   return sections;
 }
 
+std::string heading_of(const ObservableSection& section) {
+  return section.experiment.empty()
+             ? section.meaning
+             : fmt::format("experiment = {}: {}", section.experiment, section.meaning);
+}
+
 }  // namespace
+
+std::string explain_observable(const std::string& name) {
+  static const std::regex in_name("_[0-9]+(?=_|$)");
+  const std::string common = std::regex_replace(name, in_name, "_<k>");
+  std::string text;
+  for (const ObservableSection& section : make_sections())
+    for (const Observable& o : section.observables)
+      if (o.name == name || o.name == common)
+        text += fmt::format("{}\n  {}\n  unit     {}\n  measured in {}\n", o.name, o.meaning,
+                            o.unit, heading_of(section));
+  return text;
+}
 
 std::string explain_observables() {
   std::string text;
   for (const ObservableSection& section : make_sections()) {
-    text += section.experiment.empty()
-                ? fmt::format("{}\n", section.meaning)
-                : fmt::format("experiment = {}: {}\n", section.experiment, section.meaning);
+    text += heading_of(section) + "\n";
     for (const Observable& o : section.observables)
       text += fmt::format("  {:38}  {:6}  {}\n", o.name, o.unit, o.meaning);
   }

@@ -19,6 +19,12 @@ std::string read_file(const std::string& path, std::size_t limit) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
   check(fs::exists(status), fmt::format("{}: no such file", path), Exit::kFileError);
+  check(
+      !fs::exists(fs::path(path) / "run.vtkhdf", code),
+      fmt::format("{0}: is the folder of a run, not a scene. To go on with it: the command of the "
+                  "run with --resume, or acinus run {0}/scene.json --out {0} --resume",
+                  path),
+      Exit::kFileError);
   check(fs::is_regular_file(status), fmt::format("{}: is not a regular file", path),
         Exit::kFileError);
   std::ifstream file(path, std::ios::binary);

@@ -261,7 +261,10 @@ class KeyReader final : public Visitor {
       }
       const std::string hint = nearest_name(member.name, frame_.known);
       std::string message = "unknown key. ";
-      if (!hint.empty()) {
+      if (frame_.pointer.empty() && member.name == "cell") {
+        message +=
+            "Constants of cells are in cell_types.NAME, of which `acinus explain` writes cell";
+      } else if (!hint.empty()) {
         message += did_you_mean(hint) +
                    fmt::format(" (acinus explain {}{}{})", prefix_, frame_.short_path, hint);
       } else {

@@ -19,9 +19,10 @@ void check_cycle(const Scene& scene, const coupling::CycleParams& cycle, const s
   if (cycle.mitosis > shortest) {
     report.add_relation(
         {pointer + "/mitosis", pointer + "/time", pointer + "/spread"}, hours(cycle.mitosis),
-        fmt::format("must not exceed {:.4g} h, the shortest cycle of /time = {} and /spread = {}: "
-                    "mitosis is part of the cycle",
-                    shortest / 3600, hours(cycle.time), cycle.spread));
+        fmt::format(
+            "must not exceed {:.4g} h: mitosis is part of the cycle, and the shortest cycle "
+            "drawn is {}/time = {} minus three times {}/spread = {} of it",
+            shortest / 3600, pointer, hours(cycle.time), pointer, cycle.spread));
   }
   if (cycle.axis == coupling::DivisionAxis::kVessel && scene.vessels.file.empty() &&
       !scene.lobule) {

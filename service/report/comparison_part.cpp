@@ -20,7 +20,8 @@ nlohmann::ordered_json describe_comparison(const std::vector<std::string>& folde
              {"unit", d.unit},
              {"reference", d.absolute ? OrderedJson(nullptr) : short_number(d.reference)},
              {"value", short_number(d.value)},
-             {"difference", short_number(d.difference)},
+             {"change", short_number(d.change())},
+             {"rms", short_number(d.rms())},
              {"absolute", d.absolute}});
       j["runs"].push_back(rows);
     }

@@ -126,8 +126,10 @@ export function comparison(c, names) {
   if (c.fault) return make("p", { class: "quiet" }, `These runs cannot be compared: ${c.fault}`);
   const others = names.slice(1);
   const quantities = [...new Set(c.runs.flatMap((rows) => rows.map((d) => d.name)))];
-  const difference = (d) => (d.difference == null ? "" : d.absolute ? quantity(d.difference, d.unit) : `${number(+(100 * d.difference).toPrecision(3))} % apart`);
-  const cell = (d) => (d == null ? "–" : d.absolute || d.value == null ? difference(d) || "–" : make("span", {}, quantity(d.value, d.unit), make("span", { class: "quiet" }, d.difference == null ? "" : ` · ${difference(d)}`)));
+  const signed = (share) => `${share > 0 ? "+" : ""}${percent(share)}`;
+  const change = (d) => (d.change == null ? "" : ` · ${signed(d.change)}`);
+  const rms = (d) => (d.rms == null || d.absolute ? "" : ` · rms ${percent(d.rms)}`);
+  const cell = (d) => (d == null || d.value == null ? "–" : make("span", {}, quantity(d.value, d.unit), make("span", { class: "quiet" }, change(d) + rms(d))));
   const rows = quantities.map((name) => {
     const of = c.runs.map((rows) => rows.find((d) => d.name === name));
     const first = of.find((d) => d?.reference != null);
@@ -135,7 +137,7 @@ export function comparison(c, names) {
   });
   const notes = [...new Set(c.notes)];
   const isLong = (n) => n.length > LONG_NOTE;
-  return make("div", {}, make("p", { class: "quiet" }, `${c.frames} common ${c.frames === 1 ? "frame" : "frames"}${c.from === c.to ? `, at ${duration(c.to)}` : ` from ${duration(c.from)} to ${duration(c.to)}`}. Differences are to ${names[0]}.`),
+  return make("div", {}, make("p", { class: "quiet" }, `${c.frames} common ${c.frames === 1 ? "frame" : "frames"}${c.from === c.to ? `, at ${duration(c.to)}` : ` from ${duration(c.from)} to ${duration(c.to)}`}. Percentages without a word: change relative to ${names[0]}. Rms: of the difference over time, relative to the rms of ${names[0]}; frames far from rest, such as the first, weigh most.`),
     table(["quantity", names[0], ...others], rows, "Comparison"), ...notes.filter((n) => !isLong(n)).map((n) => make("p", { class: "quiet" }, n)),
     ...notes.filter(isLong).map((n) => make("details", {}, make("summary", {}, n.split(": ")[0]), make("ul", {}, ...n.slice(n.indexOf(": ") + 2).split("; ").map((d) => make("li", {}, d))))));
 }
