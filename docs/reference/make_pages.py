@@ -38,7 +38,7 @@ SIGNALS = [  # all of them, as tests/cli/ends_test.py sends them: docs/howto/sto
 
 MORE = {  # command -> page
     "run": "../howto/restart.md", "explain": "scene_keys.md", "mesh": "../howto/images.md", "import": "../howto/images.md",
-    "voxelise": "../howto/images.md", "calibrate": "../science/calibration.md", "compare": "../howto/stopping.md#verdicts",
+    "voxelise": "../howto/images.md", "calibrate": "../science/calibration.md", "compare": "../howto/compare.md",
     "report": "../howto/report.md", "study": "../howto/study.md", "serve": "../howto/service.md",
     "openvt": "../howto/exchange.md", "bench": "../developers/profiling.md",
 }
