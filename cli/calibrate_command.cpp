@@ -42,12 +42,14 @@ int run(CalibrateArguments& arguments) {
 Command add_calibrate(CLI::App& app, const std::string& command_line) {
   const auto arguments = std::make_shared<CalibrateArguments>();
   runs::CalibrateOptions& o = arguments->options;
-  CLI::App* command =
-      add_command(app, "calibrate", "find the law that makes spheres push as deformable cells do",
-                  "acinus calibrate lobule_hybrid --out law.json");
+  CLI::App* command = add_command(
+      app, "calibrate", "find the law that makes spheres resist compression like deformable cells",
+      "acinus calibrate lobule_hybrid --out law.json");
   command->add_option("SCENE", arguments->scene_file,
                       "scene file or name, with the cell type (default: calibration)");
-  command->add_option("--out", o.out, "law file; runs, curves and plots stand beside it")
+  command
+      ->add_option("--out", o.out,
+                   "law file; runs, curves and plots are written to LAW.calibration")
       ->type_name("LAW.json")
       ->required();
   add_set(*command, arguments->set);
@@ -62,24 +64,26 @@ Command add_calibrate(CLI::App& app, const std::string& command_line) {
       ->check(CLI::Range(0.01, 10.0));
   command
       ->add_option("--highest", o.calibration.fit.highest,
-                   "largest overlap d of the fit (default: 0.2)")
+                   "largest overlap d of the fit E + a1 d^p (default: 0.2)")
       ->type_name("D")
       ->check(CLI::Range(0.05, 0.3));
-  command->add_option("--power", o.calibration.fit.power, "power of the leading term (default: 4)")
+  command
+      ->add_option("--power", o.calibration.fit.power, "power p of the fit E + a1 d^p (default: 4)")
       ->type_name("P")
       ->check(CLI::Range(1.1, 12.0));
-  command->add_flag("--free-power", o.calibration.fit.free_power, "fit the power as well");
+  command->add_flag("--free-power", o.calibration.fit.free_power, "fit the power p as well");
   command
-      ->add_option(
-          "--good-enough", o.calibration.fit.good_enough,
-          "relative error up to which one term is enough and no table is made (default: 0.1)")
+      ->add_option("--good-enough", o.calibration.fit.good_enough,
+                   "relative error of the force up to which E + a1 d^p is used; above it a table "
+                   "of moduli is made (default: 0.1)")
       ->type_name("E")
       ->check(CLI::Range(0.0, 10.0));
   CLI::Option* none = command->add_flag("!--no-relaxation", o.calibration.relaxation,
                                         "leave out how long the clump takes to relax");
   command
-      ->add_option("--check-friction", arguments->check_friction,
-                   "also the relaxation with this cell-cell friction, e.g. \"1e11 N s/m^3\"")
+      ->add_option(
+          "--check-friction", arguments->check_friction,
+          "also simulate the relaxation with this cell-cell friction, e.g. \"1e11 N s/m^3\"")
       ->type_name("FRICTION")
       ->excludes(none);
   command

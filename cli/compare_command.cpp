@@ -71,7 +71,7 @@ Command add_compare(CLI::App& app, const std::string& command_line) {
       app, "compare", "how runs of the same scene differ; the first one is the reference",
       "acinus compare lobule_dcm.run lobule_cbm.run --tolerance pressure=0.2");
   command->add_option("RUN", arguments->folders, "run folders")->type_name("DIR");
-  command->add_option("--out", arguments->out, "JSON file; plots stand beside it")
+  command->add_option("--out", arguments->out, "JSON file; plots are written beside it")
       ->type_name("FILE.json");
   std::string known;
   for (const auto& [name, meaning] : runs::comparable_quantities())

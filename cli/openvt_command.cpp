@@ -71,7 +71,7 @@ Command add_openvt(CLI::App& app, const std::string& command_line) {
   command->add_option("--model", arguments->model, "dcm: deformable cells; cbm: spheres (default)")
       ->type_name("MODEL")
       ->check(CLI::IsMember({"dcm", "cbm"}));
-  command->add_option("--csv", o.csv, "what participants exchange")->type_name("FILE.csv");
+  command->add_option("--csv", o.csv, "CSV file in OpenVT's format")->type_name("FILE.csv");
   command->add_option("--out", o.out, "folder of the runs (default: openvt_WHAT_MODEL.run)")
       ->type_name("DIR");
   command->add_option("--cells", o.cells, "monolayer: until there are so many (default: 1000)")

@@ -66,8 +66,7 @@ Command add_serve(CLI::App& app) {
   command->add_option("--address", o.address, "address to listen on (default: 127.0.0.1)")
       ->type_name("IP");
   command
-      ->add_option("--name", o.names,
-                   "another name by which browsers may call this machine; may be repeated")
+      ->add_option("--name", o.names, "additional host name accepted in requests; may be repeated")
       ->type_name("HOST")
       ->allow_extra_args(false);
   command->add_flag("--no-token", a.no_token, "whoever can reach the port may use it");

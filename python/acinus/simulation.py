@@ -151,7 +151,7 @@ def simulate(scene, out, set=None, threads=1, overwrite=False, resume=False):
 
 
 def calibrate(scene, out, set=None, cells=0, relaxation=True, threads=1):
-    """`acinus calibrate`: the law that makes spheres push as deformable cells do. Takes minutes; returns acinus.Law."""
+    """`acinus calibrate`: the law that makes spheres resist compression like deformable cells. Takes minutes; returns acinus.Law."""
     code = _native().calibrate(os.fspath(scene), os.fspath(out), _changes(set), cells, relaxation, threads)
     if code == 75:
         raise KeyboardInterrupt

@@ -321,16 +321,19 @@ const std::map<std::string, std::string>& comparable_quantities() {
   static const std::map<std::string, std::string> names{
       {"cells", "number of cells at the end, change"},
       {"positions", "distance of the same cells at the end, um, rms over cells"},
-      {"density", "cells per volume where the reference has its inner half, at the end, change"},
-      {"pressure", "mean contact pressure, rms over time"},
-      {"cell_pressure", "contact pressure of the same cells at the end, rms over cells"},
-      {"contact_force", "mean contact force of a cell, rms over time"},
-      {"cell_force", "contact force of the same cells at the end, rms over cells"},
-      {"contacts", "mean number of cells a cell touches, rms over time"},
-      {"lesion_area", "lesion area by the nearest cells (closed: below 0.05), rms over time"},
-      {"flooded_area", "lesion area that is open to the central vein, rms over time"},
-      {"overlap", "overlap of the central cell of a compressed clump, rms over time"},
-      {"normal_force", "normal forces on it, rms over time"},
+      {"density",
+       "cells per volume within the radius that contains half of the reference's cells, at the "
+       "end, change"},
+      {"pressure", "mean contact pressure, rms difference over time"},
+      {"cell_pressure", "contact pressure of the same cells at the end, rms difference over cells"},
+      {"contact_force", "mean contact force of a cell, rms difference over time"},
+      {"cell_force", "contact force of the same cells at the end, rms difference over cells"},
+      {"contacts", "mean number of cells a cell touches, rms difference over time"},
+      {"lesion_area",
+       "lesion area by the nearest cells (closed: below 0.05), rms difference over time"},
+      {"flooded_area", "lesion area that is open to the central vein, rms difference over time"},
+      {"overlap", "overlap of the central cell of a compressed clump, rms difference over time"},
+      {"normal_force", "sum of the normal forces on the central cell, rms difference over time"},
       {"cpu", "CPU time, change"}};
   return names;
 }

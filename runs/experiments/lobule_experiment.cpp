@@ -185,7 +185,8 @@ std::vector<Observable> lesion_columns() {
   std::vector<Observable> list{
       {"lesion_radius_um", "um", "lesion radius: the same as lesion_radius_slices_centre_um"},
       {"lesion_area_relative", "1",
-       "relative lesion area: the same as lesion_area_slices_centre_floor"},
+       "relative lesion area, the measure of closing to use (closed: below 0.05): the same as "
+       "lesion_area_slices_centre_floor. For uncovered space use lesion_area_flooded"},
       {"lesion_area_surface", "1",
        "relative lesion area by surfaces: the same as lesion_area_slices_surface_floor"}};
   for (const LesionReading& r : lesion_readings())
@@ -204,7 +205,7 @@ std::vector<Observable> lesion_columns() {
        {"lesion_area_open", "1", "lesion_area_open_um2 relative to the first frame"},
        {"front_radius_mean_um", "um",
         "mean over angle and height of the distance from the axis to the first cell surface, "
-        "one cell diameter beyond the initial lesion at most"},
+        "capped at one cell diameter beyond the initial lesion"},
        {"front_roughness_um", "um",
         "standard deviation of the distance that front_radius_mean_um averages"},
        {"lesion_area_seen", "1", "area within front_radius_mean_um relative to the first frame"},
@@ -234,11 +235,11 @@ std::vector<Observable> lobule_columns() {
        {"density_tissue_per_mm3", "1/mm^3", "density_per_mm3 without the open area of the lesion"},
        {"leaders", "1", "number of leaders"},
        {"leader_speed_um_h", "um/h",
-        "mean speed toward the axis of the cells that were leaders at the frame before; 0 "
+        "mean speed toward the axis, since the last frame, of the cells that were leaders then; 0 "
         "without any"},
        {"leader_speed_cells", "1", "number of cells in leader_speed_um_h"},
        {"follower_speed_um_h", "um/h",
-        "mean speed toward the axis of all other cells; 0 without any"},
+        "mean speed toward the axis, since the last frame, of all other cells; 0 without any"},
        {"follower_speed_cells", "1", "number of cells in follower_speed_um_h"},
        {"sinusoid_contact_area_um2", "um^2", "area of cells in contact with sinusoids"},
        {"sinusoid_contact_area_per_cell_um2", "um^2", "area in contact with sinusoids per cell"},

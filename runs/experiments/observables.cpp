@@ -34,8 +34,7 @@ List tissue() {
             {"cells_cbm", "1", "number of spheres"},
             {"divisions", "1", "divisions so far"},
             {"deaths", "1", "deaths so far"},
-            {"slowest_growth", "1",
-             "smallest growth rate of a cell over its free rate, by inhibition; 1 without"},
+            {"slowest_growth", "1", "smallest inhibition factor of any cell (1: none)"},
             {"resting_cells", "1", "cells in the cycle that a rule keeps from growing"}};
   append(list, pressures());
   append(
@@ -43,8 +42,8 @@ List tissue() {
       {{"overlap_dcm_dcm_um", "um", "deepest overlap of two deformable cells"},
        {"overlap_dcm_cbm_um", "um", "deepest point of a deformable cell in a round sphere"},
        {"overlap_dcm_cbm_beyond_um", "um",
-        "deepest point of a deformable cell in a sphere beyond the indentation that their "
-        "contact force explains"},
+        "overlap of a deformable cell with a sphere in excess of the indentation that is "
+        "expected from their contact force, largest of all pairs"},
        {"overlap_cbm_cbm_um", "um", "deepest overlap of two spheres"},
        {"overlap_dcm_vessels_um", "um", "deepest overlap of a deformable cell with a vessel"},
        {"overlap_cbm_vessels_um", "um", "deepest overlap of a sphere with a vessel"},

@@ -174,8 +174,9 @@ std::string explain_markdown() {
       "# Scene keys\n\n"
       "Printed by `acinus explain --markdown`; a test compares this page with the program.\n"
       "`cell` stands for `cell_types.<name>`, `wall` for one element of `walls`, and so on. "
-      "Quantities are texts with a unit. In base units (um, s, nN) their size is 0 or from "
-      "1e-15 to 1e12, of lengths to 1e6.\n\n"
+      "Quantities are texts with a unit. Absolute limits of their size, in base units (um, s, nN): "
+      "0, or from 1e-15 to 1e12, of lengths to 1e6. The column \"paper\" has the symbol of "
+      "[VanLiedekerke2020](references.bib).\n\n"
       "| key | type | default | range | meaning | paper |\n"
       "|---|---|---|---|---|---|\n";
   for (const Entry& entry : all_entries()) {

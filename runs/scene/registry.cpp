@@ -49,8 +49,8 @@ void describe_time(Visitor& v, Scene& s) {
          n.integrator);
   v.flag({.name = "extrapolate",
           .meaning =
-              "linearly implicit steps look ahead along the last step's velocity: steady motion "
-              "has a third of the error"},
+              "linearly implicit steps extrapolate along the last step's velocity, which reduces "
+              "the error of steady motion threefold"},
          n.extrapolate);
   v.integer({.name = "until_cells",
              .meaning = "the run ends when there are so many cells; 0 = only at time.end",
@@ -63,11 +63,12 @@ void describe_solver(Visitor& v, solve::CgOptions& b) {
           .meaning = "residual of the conjugate gradients, relative to the right-hand side",
           .range = {.low = 0, .high = 0.1, .low_open = true}},
          b.tolerance);
-  v.integer({.name = "max_iterations",
-             .meaning = "conjugate gradient iterations of one solve; twice as many each time that "
-                        "one failed at the same step",
-             .range = kAtLeastOne},
-            b.max_iterations);
+  v.integer(
+      {.name = "max_iterations",
+       .meaning = "conjugate gradient iterations of one solve; doubled after each failed solve "
+                  "in a step",
+       .range = kAtLeastOne},
+      b.max_iterations);
 }
 
 void describe_start_up(Visitor& v, StartUpBlock& b) {
@@ -159,14 +160,15 @@ void describe_scene(Visitor& v, Scene& s) {
   v.seed({.name = "seed", .meaning = "seed of all random numbers"}, s.seed);
   choice(v, {.name = "experiment", .meaning = "what is measured", .affects = Affects::kStep},
          s.experiment);
-  choice(v,
-         {.name = "model",
-          .meaning = "replaces cells.model, whatever the scene says there; cells of cells.list "
-                     "with a model of their own keep it, zoom regions count only with zoom",
-          .automatic = "cells.model stays",
-          .affects = Affects::kStep,  // of the start cells.model says it
-          .compared = false},
-         s.model);
+  choice(
+      v,
+      {.name = "model",
+       .meaning = "model of all cells, in place of cells.model; cells of cells.list with a model "
+                  "of their own keep it, zoom regions act only with zoom",
+       .automatic = "cells.model stays",
+       .affects = Affects::kStep,  // of the start cells.model says it
+       .compared = false},
+      s.model);
   choice(v,
          {.name = "accuracy",
           .meaning = "mesh, contact points, time step and solver that belong together, for tissue: "

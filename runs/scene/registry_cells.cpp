@@ -317,7 +317,7 @@ void describe_cell_type(Visitor& v, CellType& b) {
         b.cycle.inhibition, describe_inhibition);
   block(v,
         {.name = "death",
-         .meaning = "how a cell dies that a rule of life lets die",
+         .meaning = "mode of death of cells that life.rules or rules kill",
          .affects = Affects::kStep},
         b, describe_death);
   blocks(v,

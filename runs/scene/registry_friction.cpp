@@ -18,8 +18,8 @@ void describe_friction_of_contacts(Visitor& v, Scene& s) {
                    .unit = "N s/m^3",
                    .range = kNotNegative,
                    .symbol = "gamma_ext+",
-                   .automatic = "1e10 N s/m^3; with a calibrated law the share of dcm_dcm with "
-                                "which layers of both models slide alike",
+                   .automatic = "1e10 N s/m^3; with a calibrated law its friction share times "
+                                "dcm_dcm",
                    .compared = false},
                   b.cbm_cbm);
   v.optional_real({.name = "dcm_cbm",
@@ -53,9 +53,9 @@ void describe_friction(Visitor& v, Scene& s) {
   describe_friction_of_contacts(v, s);
   choice(v,
          {.name = "form",
-          .meaning = "between what dcm_dcm acts: facing points of two surfaces, or each node of a "
-                     "triangle with each node of the one it touches, which also holds back "
-                     "surfaces that stretch together, the more the coarser the mesh"},
+          .meaning = "where dcm_dcm acts. surface: between facing points of two surfaces; nodes: "
+                     "between all pairs of nodes of two triangles that touch (the published form, "
+                     "which adds a viscosity that depends on the mesh)"},
          s.contact.friction_form);
   v.real({.name = "range",
           .meaning = "gap over which friction between DCM surfaces fades out",

@@ -119,8 +119,8 @@ void describe_cycle(Visitor& v, coupling::CycleParams& b) {
           .range = {.low = 0, .high = 0.3}},
          b.spread);
   v.real({.name = "mitosis",
-          .meaning = "time after division in which the daughters release their tension; part of "
-                     "the cycle",
+          .meaning = "time after division over which the rest shape of a deformable daughter "
+                     "changes from its shape at division to a sphere; part of the cycle",
           .dimension = kTime,
           .unit = "h",
           .range = kPositive},
@@ -160,8 +160,8 @@ void describe_inhibition(Visitor& v, coupling::Inhibition& b) {
   v.when(b.by == coupling::InhibitedBy::kPressure, "by = pressure", [&b](Visitor& w) {
     w.real(
         {.name = "pressure_threshold",
-         .meaning = "contact pressure that halves the growth rate; contact pressures in tissue are "
-                    "0.04 to 2.4 Pa",
+         .meaning = "contact pressure that halves the growth rate; contact pressures are 0.04 to "
+                    "2.4 Pa in tissue that grows freely, 5 to 300 Pa in a capsule that shrinks",
          .dimension = kStress,
          .unit = "Pa",
          .range = kPositive,
