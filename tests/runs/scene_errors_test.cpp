@@ -228,8 +228,7 @@ TEST(SceneErrors, RulesOfLife) {
                 "inhibition/pressure_threshold: is missing: contact pressure that "
                 "halves the growth rate; contact pressures are 0.04 to 2.4 Pa in tissue that "
                 "grows freely, 5 to 300 Pa in a capsule that shrinks, "
-                "e.g. \"1 kPa\" (acinus explain "
-                "cell.inhibition.pressure_threshold)");
+                "e.g. \"1 kPa\" (acinus explain cell.inhibition.pressure_threshold)");
   EXPECT_EQ(failure(cell(R"("inhibition": {"by": "volume", "volume_threshold": "0.8"})")),
             at + "84 " + type +
                 "inhibition/volume_threshold = \"0.8\": must be a plain number, "
