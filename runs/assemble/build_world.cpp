@@ -89,7 +89,7 @@ coupling::Lobule build_lobule(const Scene& scene, Notes& notes) {
 
 /// Warns of adhesion too strong for the cortex: cells spread over each other until faces fold and
 /// cross. Of 382 random scenes with W from 0.005 to 26 E h, 13 of the 14 with self-intersecting
-/// cells had W above 0.7 E h (docs/science/verification.md).
+/// cells had W above 0.7 E h (docs/developers/verification.md).
 void note_weak_cortex(const Scene& scene, const dcm::State& cells, Notes& notes) {
   constexpr double kMostAdhesionOverStretch = 0.5;  // E h
   const auto empty = std::ranges::count(cells.lineage, dcm::kEmptyLane);
