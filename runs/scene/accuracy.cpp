@@ -1,9 +1,11 @@
 #include "runs/scene/accuracy.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 namespace acinus::runs {
 namespace {
@@ -25,21 +27,18 @@ const NamedAccuracy& named(Accuracy accuracy) {
   return kNamed[static_cast<std::size_t>(accuracy) - 1];
 }
 
-/// Sets the keys of an accuracy whose pointers `may_set` accepts.
-template <class F>
-void set_where(const AccuracySettings& a, Scene& scene, const F& may_set) {
-  const auto set = [&may_set](const std::string& pointer, auto& field, const auto& value) {
-    if (may_set(pointer)) field = value;
-  };
-  set("/time/step", scene.numerics.max_step, a.step);
-  set("/time/tolerance", scene.numerics.tolerance, a.tolerance);
-  set("/time/max_move", scene.numerics.max_move, a.max_move);
-  set("/solver/tolerance", scene.numerics.cg.tolerance, a.solver);
-  set("/contact/skin", scene.contact.skin, a.skin);
+/// Calls visit(pointer, field, value) for every key of an accuracy.
+template <class AnyScene, class F>
+void for_each_key(const AccuracySettings& a, AnyScene& scene, const F& visit) {
+  visit("/time/step", scene.numerics.max_step, a.step);
+  visit("/time/tolerance", scene.numerics.tolerance, a.tolerance);
+  visit("/time/max_move", scene.numerics.max_move, a.max_move);
+  visit("/solver/tolerance", scene.numerics.cg.tolerance, a.solver);
+  visit("/contact/skin", scene.contact.skin, a.skin);
   if (scene.contact.law == dcm::ContactLaw::kCohesive)
-    set("/contact/quadrature", scene.contact.quadrature, a.quadrature);
+    visit("/contact/quadrature", scene.contact.quadrature, a.quadrature);
   for (auto& [name, type] : scene.cell_types)
-    set("/cell_types/" + name + "/dcm/nodes", type.dcm.nodes, a.nodes);
+    visit("/cell_types/" + name + "/dcm/nodes", type.dcm.nodes, a.nodes);
 }
 
 }  // namespace
@@ -49,24 +48,35 @@ const AccuracySettings& settings_of(Accuracy accuracy) { return named(accuracy).
 const ExpectedErrors& expected_errors(Accuracy accuracy) { return named(accuracy).errors; }
 
 void use_settings(const AccuracySettings& settings, Scene& scene) {
-  set_where(settings, scene, [](const std::string&) { return true; });
+  for_each_key(settings, scene,
+               [](const std::string&, auto& field, const auto& value) { field = value; });
 }
 
 void apply_accuracy(const Report& report, Scene& scene) {
   if (scene.accuracy == Accuracy::kByKey) return;
-  set_where(settings_of(scene.accuracy), scene,
-            [&](const std::string& pointer) { return report.find(pointer) == nullptr; });
+  for_each_key(settings_of(scene.accuracy), scene,
+               [&](const std::string& pointer, auto& field, const auto& value) {
+                 if (report.find(pointer) == nullptr) field = value;
+               });
 }
 
 std::string describe_accuracy(const Scene& scene) {
   const AccuracySettings& a = settings_of(scene.accuracy);
   const ExpectedErrors& e = expected_errors(scene.accuracy);
+  std::vector<std::string> other;
+  for_each_key(a, scene, [&](const std::string& pointer, const auto& field, const auto& value) {
+    if (field != value) other.push_back(pointer);
+  });
   return fmt::format(
       "accuracy {}: {} nodes a cell, contact points {}, steps to {:g} s of {:g} um each; expected "
       "errors in tissue: cytosol pressure {:.0f} %, radius of the tissue {:.0f} %, contact area "
-      "{:.0f} %, contact force {:.0f} %",
+      "{:.0f} %, contact force {:.0f} %{}",
       name_of_choice(scene.accuracy), a.nodes, name_of_choice(a.quadrature), a.step, a.tolerance,
-      100 * e.cytosol_pressure, 100 * e.radius, 100 * e.contact_area, 100 * e.contact_force);
+      100 * e.cytosol_pressure, 100 * e.radius, 100 * e.contact_area, 100 * e.contact_force,
+      other.empty()
+          ? ""
+          : fmt::format(". The scene has other values of {}, so its errors are other ones",
+                        fmt::join(other, ", ")));
 }
 
 }  // namespace acinus::runs

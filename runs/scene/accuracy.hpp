@@ -39,7 +39,8 @@ void use_settings(const AccuracySettings& settings, Scene& scene);
 /// @param report  of the text that the scene was read from
 void apply_accuracy(const Report& report, Scene& scene);
 
-/// Settings and expected errors in one sentence.   @pre scene.accuracy != kByKey
+/// Settings and expected errors of the named accuracy, and the keys of which the scene has other
+/// values.   @pre scene.accuracy != kByKey
 std::string describe_accuracy(const Scene& scene);
 
 }  // namespace acinus::runs

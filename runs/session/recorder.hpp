@@ -71,6 +71,7 @@ class Recorder {
   /// All attempts of the run with this one.
   Attempts attempts() const { return add_attempt(before_, simulation_.work().timings); }
   int start_cells() const { return static_cast<int>(life_.start_cells); }
+  const Measures& measures() const { return observed_.measures; }
   /// Rules of life that never acted so far.
   std::vector<std::string> idle_rules() const {
     return list_idle_rules(scene_, observed_.measures, simulation_.world().state,

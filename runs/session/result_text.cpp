@@ -70,6 +70,23 @@ std::string describe_cells(int deformable, int spheres) {
   return spheres == 0 ? a : deformable == 0 ? b : a + ", " + b;
 }
 
+std::vector<std::string> describe_pressures(const Measures& measures) {
+  const auto last = [&](const char* name) {
+    const auto found = measures.find(name);
+    return found == measures.end() || found->second.empty() ? 0 : found->second.back();
+  };
+  std::vector<std::string> lines;
+  if (last("cells_dcm") > 0)
+    lines.push_back(fmt::format(
+        "mean pressure of the deformable cells at the end: {:.3g} Pa in the cytosol, {:.3g} Pa at "
+        "contacts",
+        last("cytosol_pressure_mean_dcm_Pa"), last("contact_pressure_mean_dcm_Pa")));
+  if (last("cells_cbm") > 0)
+    lines.push_back(fmt::format("mean pressure of the spheres at the end: {:.3g} Pa at contacts",
+                                last("contact_pressure_mean_cbm_Pa")));
+  return lines;
+}
+
 std::vector<std::string> describe_result(const coupling::World& world, const RunTotals& totals,
                                          int start_cells) {
   const coupling::State& s = world.state;

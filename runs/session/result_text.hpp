@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "coupling/world/world.hpp"
+#include "runs/experiments/measures.hpp"
 #include "runs/session/totals.hpp"
 
 namespace acinus::runs {
@@ -14,6 +15,10 @@ std::string format_duration(double seconds);
 
 /// Number of cells by model: "13 deformable cells, 1 sphere".
 std::string describe_cells(int deformable, int spheres);
+
+/// Mean pressures of both models in the last frame: "pressure of deformable cells at the end: 5.2
+/// Pa in the cytosol, 0.1 Pa at contacts". Empty without frames.
+std::vector<std::string> describe_pressures(const Measures& measures);
 
 /// Cells at the end, and the deepest overlap of each model with a verdict.
 /// Overlaps of spheres that falsify loads get a line of advice.

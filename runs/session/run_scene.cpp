@@ -301,6 +301,7 @@ void SceneRun::show_result() {
   for (const std::string& line :
        describe_result(world(), recorder_.totals(), recorder_.start_cells()))
     progress_.note(line);
+  for (const std::string& line : describe_pressures(recorder_.measures())) progress_.note(line);
   if (options_.is_part) return;
   for (const std::string& line : advise_viewing(options_.out)) progress_.note(line);
 }

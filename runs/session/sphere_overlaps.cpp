@@ -22,8 +22,8 @@ std::string advise_sphere_overlaps(const coupling::World& world, const RunTotals
   const bool plain = std::ranges::any_of(
       world.params.cbm, [](const cbm::Params& p) { return !p.correction.corrects(); });
   return fmt::format(
-      "spheres beyond a limit do not bear the loads of deformable cells there{}",
-      plain ? ". With a law they are nearer: cbm.stiffness_correction = \"auto\"" : "");
+      "where spheres overlap this deeply, their forces are not those of deformable cells{}",
+      plain ? ". With a law they come nearer: cbm.stiffness_correction = \"auto\"" : "");
 }
 
 }  // namespace acinus::runs

@@ -89,6 +89,10 @@ TEST(Accuracy, DescribesSettingsAndErrors) {
   const std::string text = describe_accuracy(read_minimal({"accuracy=balanced"}));
   EXPECT_NE(text.find("362 nodes"), std::string::npos) << text;
   EXPECT_NE(text.find("contact area"), std::string::npos) << text;
+  EXPECT_EQ(text.find("other values"), std::string::npos) << text;
+  const std::string mixed =
+      describe_accuracy(read_minimal({"accuracy=balanced", "time.step=60 s"}));
+  EXPECT_NE(mixed.find("other values of /time/step,"), std::string::npos) << mixed;
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ RunTotals totals(double pair, double vessel) {
   return t;
 }
 
-constexpr const char* kConsequence = "spheres beyond a limit do not bear the loads";
+constexpr const char* kConsequence = "where spheres overlap this deeply";
 
 TEST(SphereOverlaps, HaveAConsequenceBeyondHalfAndAQuarterOfARadius) {
   const coupling::World w = spheres();

@@ -237,7 +237,20 @@ TEST(ResultText, JudgesTheDeepestOverlapOfEachModel) {
   const std::vector<std::string> deep = describe_result(w, t, 3);
   ASSERT_EQ(deep.size(), 5U);
   for (std::size_t k = 1; k < 4; ++k) EXPECT_CONTAINS(deep[k], ": TOO DEEP (limit ");
-  EXPECT_CONTAINS(deep[4], "do not bear the loads of deformable cells");
+  EXPECT_CONTAINS(deep[4], "their forces are not those of deformable cells");
+}
+
+TEST(ResultText, TellsMeanPressuresOfTheModelsThatAreThere) {
+  const std::vector<std::string> lines =
+      describe_pressures({{"cells_dcm", {2, 3}},
+                          {"cells_cbm", {1, 0}},
+                          {"cytosol_pressure_mean_dcm_Pa", {4, 5.25}},
+                          {"contact_pressure_mean_dcm_Pa", {9, 0.125}}});
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0],
+            "mean pressure of the deformable cells at the end: 5.25 Pa in the cytosol, 0.125 Pa at "
+            "contacts");
+  EXPECT_TRUE(describe_pressures({}).empty());
 }
 
 TEST(ResultText, DaughtersThatStartDeepHaveNoVerdict) {
