@@ -26,7 +26,7 @@ std::array<double, 6> face_rates(const VoxelGrid& grid, const Medium& m) {
   return rate;
 }
 
-/// Calls f(voxel, side) for every voxel at every face of the box.
+/// Calls f(voxel, side, face) for every voxel at every face of the box.
 template <class F>
 void for_each_face_voxel(const VoxelGrid& grid, const F& f) {
   for (int side = 0; side < 6; ++side) {
@@ -34,7 +34,11 @@ void for_each_face_voxel(const VoxelGrid& grid, const F& f) {
     std::array<int, 3> at{};
     at[axis] = side % 2 == 0 ? 0 : grid.n[axis] - 1;
     for (at[v] = 0; at[v] < grid.n[v]; ++at[v])
-      for (at[u] = 0; at[u] < grid.n[u]; ++at[u]) f(grid.index(at[0], at[1], at[2]), side);
+      for (at[u] = 0; at[u] < grid.n[u]; ++at[u]) {
+        std::array<int, 3> face = at;
+        face[axis] += side % 2;
+        f(grid.index(at[0], at[1], at[2]), side, grid.face_index(axis, face[0], face[1], face[2]));
+      }
   }
 }
 
@@ -71,6 +75,8 @@ class Stepper {
         tolerance_(how.tolerance),
         supply_(how.supply),
         rate_(face_rates(grid, medium)),
+        space_(how.space),
+        held_(how.held),
         solver_(solver),
         system_(solver.scratch().system),
         before_(solver.scratch().before),
@@ -79,11 +85,16 @@ class Stepper {
     const std::size_t n = grid.n_voxel();
     system_.own.resize(n);
     system_.rhs.resize(n);
+    system_.open = space_ == nullptr ? nullptr : &space_->face;
   }
 
   void take(double step, std::span<double> c, std::span<double> gained, Budget& budget) {
     before_.assign(c.begin(), c.end());
-    const double held = total_amount(grid_, c);
+    if (space_ != nullptr)
+      for (std::size_t v = 0; v < before_.size(); ++v)
+        before_[v] = held_.empty() ? space_->volume[v] * c[v] : held_[v];
+    held_ = {};
+    const double held = total_amount(grid_, before_);
     for (int k = 0; k < (nonlinear_ ? kMostLinearisations : 1); ++k) {
       if (nonlinear_) around_.assign(c.begin(), c.end());
       assemble(step);
@@ -96,11 +107,25 @@ class Stepper {
       budget.converged = k + 1 < kMostLinearisations;
     }
     account(step, c, gained, budget);
-    budget.change += total_amount(grid_, c) - held;
+    budget.change += total_amount(grid_, c, open()) - held;
     ++budget.substeps;
   }
 
  private:
+  std::span<const double> open() const {
+    return space_ == nullptr ? std::span<const double>{} : space_->volume;
+  }
+  double open_fraction(std::size_t voxel) const {
+    return space_ == nullptr ? 1 : space_->volume[voxel];
+  }
+  /// Rate of exchange through a face of the box, 1/s.
+  double rate_through(int side, std::size_t face) const {
+    return space_ == nullptr ? rate_[side] : rate_[side] * space_->face[side / 2][face];
+  }
+  std::size_t open_voxel(std::size_t voxel) const {
+    return space_ == nullptr ? voxel : space_->nearest[voxel];
+  }
+
   /// Concentration at which rates are linearised; linear ones need none.
   double around(std::size_t voxel) const { return nonlinear_ ? around_[voxel] : 0; }
 
@@ -109,17 +134,23 @@ class Stepper {
     for (int axis = 0; axis < 3; ++axis)
       system_.conductance[axis] =
           medium_.diffusion * step / (grid_.spacing[axis] * grid_.spacing[axis]);
-    std::ranges::fill(system_.own, 1 + step * medium_.decay);
+    for (std::size_t v = 0; v < system_.own.size(); ++v)
+      system_.own[v] = open_fraction(v) * (1 + step * medium_.decay);
     std::ranges::copy(before_, system_.rhs.begin());
-    for_each_face_voxel(grid_, [&](std::size_t voxel, int side) {
-      system_.own[voxel] += step * rate_[side];
-      system_.rhs[voxel] += step * rate_[side] * supply_ * medium_.face[side].value;
+    for_each_face_voxel(grid_, [&](std::size_t voxel, int side, std::size_t face) {
+      const double rate = rate_through(side, face);
+      system_.own[voxel] += step * rate;
+      system_.rhs[voxel] += step * rate * supply_ * medium_.face[side].value;
     });
     if (!medium_.gain.empty())
       for (std::size_t v = 0; v < system_.own.size(); ++v) {
-        system_.own[v] += step * medium_.loss[v];
-        system_.rhs[v] += step * supply_ * medium_.gain[v];
+        system_.own[v] += step * open_fraction(v) * medium_.loss[v];
+        system_.rhs[v] += step * supply_ * open_fraction(v) * medium_.gain[v];
       }
+    for (std::size_t v = 0; v < medium_.wall_gain.size(); ++v) {
+      system_.own[open_voxel(v)] += step * medium_.wall_loss[v];
+      system_.rhs[open_voxel(v)] += step * supply_ * medium_.wall_gain[v];
+    }
     const double scale = step / grid_.voxel_volume();
     for_each_exchange(bodies_, [&](std::size_t, const VoxelShare& s, const Exchange& e) {
       const Linear l = linearise(e, around(s.voxel));
@@ -148,16 +179,21 @@ class Stepper {
       secreted += amount;
       if (!gained.empty()) gained[body] += amount;
     });
-    for_each_face_voxel(grid_, [&](std::size_t voxel, int side) {
-      entered += step * rate_[side] * volume * (supply_ * medium_.face[side].value - c[voxel]);
+    for_each_face_voxel(grid_, [&](std::size_t voxel, int side, std::size_t face) {
+      entered += step * rate_through(side, face) * volume *
+                 (supply_ * medium_.face[side].value - c[voxel]);
     });
     if (!medium_.gain.empty())
       for (std::size_t v = 0; v < c.size(); ++v)
-        supplied += step * volume * (supply_ * medium_.gain[v] - medium_.loss[v] * c[v]);
+        supplied +=
+            step * volume * open_fraction(v) * (supply_ * medium_.gain[v] - medium_.loss[v] * c[v]);
+    for (std::size_t v = 0; v < medium_.wall_gain.size(); ++v)
+      supplied += step * volume *
+                  (supply_ * medium_.wall_gain[v] - medium_.wall_loss[v] * c[open_voxel(v)]);
     budget.secreted += secreted;
     budget.entered += entered;
     budget.supplied += supplied;
-    budget.decayed += step * medium_.decay * total_amount(grid_, c);
+    budget.decayed += step * medium_.decay * total_amount(grid_, c, open());
   }
 
   const VoxelGrid& grid_;
@@ -165,6 +201,8 @@ class Stepper {
   const ExchangingBodies& bodies_;
   double tolerance_, supply_;
   std::array<double, 6> rate_;
+  const OpenSpace* space_;
+  std::span<const double> held_;  ///< of the first substep
   bool nonlinear_ = false;
   Solver& solver_;
   StepSystem& system_;
@@ -207,8 +245,10 @@ Budget advance(const VoxelGrid& grid, const Medium& medium, const ExchangingBodi
   return budget;
 }
 
-double total_amount(const VoxelGrid& grid, std::span<const double> c) {
-  return grid.voxel_volume() * sum_voxels(grid.n[2], c);
+double total_amount(const VoxelGrid& grid, std::span<const double> c,
+                    std::span<const double> open) {
+  return grid.voxel_volume() *
+         (open.empty() ? sum_voxels(grid.n[2], c) : dot_voxels(grid.n[2], open, c));
 }
 
 }  // namespace acinus::substances

@@ -4,6 +4,10 @@
 /// dc/dt = D lap c - k c + sum over bodies of share / voxel volume * rate(c), finite volumes on the
 /// grid (second order in space), backward Euler in time (first order, unconditionally stable,
 /// positive). Amounts are concentrations times um^3.
+///
+/// With obstacles, c is the concentration of the open space. Voxels store c times their open
+/// fraction, faces conduct D times their open fraction of the area. Decay and sources act on the
+/// open fraction.
 
 #include <array>
 #include <cstdint>
@@ -12,6 +16,7 @@
 
 #include "substances/grid.hpp"
 #include "substances/medium.hpp"
+#include "substances/open_space.hpp"
 #include "substances/shares.hpp"
 #include "substances/solve.hpp"
 
@@ -44,15 +49,22 @@ struct Advance {
   double tolerance = 0;  ///< of the linear solver, relative to the right-hand side; also of the
                          ///< concentrations in Michaelis-Menten rates, relative to the largest
   double supply = 1;     ///< factor on the values of faces and the gain of sources
+  const OpenSpace* space = nullptr;  ///< nullptr: all is open
+  /// With `space`: [n_voxel] amounts at the start per volume of a voxel, 0 in closed voxels; empty:
+  /// those of c.
+  std::span<const double> held{};
 };
 
 /// Advances a field.
-/// @param c       [n_voxel] concentration, changed
+/// @param bodies  with obstacles, shares in open voxels
+/// @param c       [n_voxel] concentration, changed; fill_closed gives closed voxels their value
 /// @param gained  [body] amount secreted minus taken up, added to; empty: not wanted
 Budget advance(const VoxelGrid& grid, const Medium& medium, const ExchangingBodies& bodies,
                const Advance& how, Solver& solver, std::span<double> c, std::span<double> gained);
 
 /// Amount in all voxels.
-double total_amount(const VoxelGrid& grid, std::span<const double> c);
+/// @param open  [n_voxel] open fractions; empty: all is open
+double total_amount(const VoxelGrid& grid, std::span<const double> c,
+                    std::span<const double> open = {});
 
 }  // namespace acinus::substances

@@ -25,6 +25,17 @@ struct VoxelGrid {
                static_cast<std::size_t>(n[0]) +
            static_cast<std::size_t>(i);
   }
+  /// Faces across an axis, in storage order: face i of a row is below its voxel i, and there is one
+  /// more of them than voxels.
+  std::size_t n_face(int axis) const {
+    return n_voxel() / static_cast<std::size_t>(n[axis]) * static_cast<std::size_t>(n[axis] + 1);
+  }
+  std::size_t face_index(int axis, int i, int j, int k) const {
+    const auto nx = static_cast<std::size_t>(n[0] + (axis == 0 ? 1 : 0)),
+               ny = static_cast<std::size_t>(n[1] + (axis == 1 ? 1 : 0));
+    return (static_cast<std::size_t>(k) * ny + static_cast<std::size_t>(j)) * nx +
+           static_cast<std::size_t>(i);
+  }
   double voxel_volume() const { return spacing.prod(); }
   Vec3 high() const { return low + spacing.cwiseProduct(Vec3(n[0], n[1], n[2])); }
   Box box() const { return {low, high()}; }

@@ -54,6 +54,55 @@ ACINUS_INLINE LaneOf<T> inflow(const T* low, const T* high, const T* width,
   return spread(r.area_x) * along + load<T>(width + i) * across;
 }
 
+/// The same with a conductance per face.
+template <class T>
+struct PartialRows {
+  const T* below_y;
+  const T* above_y;
+  const T* below_z;
+  const T* above_z;
+  const T* x;  ///< conductances to the voxels before
+  const T* y_low;
+  const T* y_high;
+  const T* z_low;
+  const T* z_high;
+};
+
+template <class T>
+PartialRows<T> partial_row_at(const Level<T>& l, const T* x, int j, int k) {
+  const PaddedLayout& at = l.layout;
+  const std::size_t row = at.row(j, k), plane = static_cast<std::size_t>(at.n[1]) * at.stride;
+  const T *own = x + row, *y = l.partial[1].data() + row, *z = l.partial[2].data() + row;
+  const bool last_y = j + 1 == at.n[1], last_z = k + 1 == at.n[2];
+  return {j > 0 ? own - at.stride : own,
+          last_y ? own : own + at.stride,
+          k > 0 ? own - plane : own,
+          last_z ? own : own + plane,
+          l.partial[0].data() + row,
+          y,
+          last_y ? l.no_faces.data() : y + at.stride,
+          z,
+          last_z ? l.no_faces.data() : z + plane};
+}
+
+template <class T>
+ACINUS_INLINE LaneOf<T> inflow(const T*, const T*, const T*, const PartialRows<T>& r, const T* x,
+                               std::size_t i) {
+  const LaneOf<T> along =
+      load<T>(r.x + i) * load<T>(x + i - 1) + load<T>(r.x + i + 1) * load<T>(x + i + 1);
+  const LaneOf<T> in_plane = load<T>(r.y_low + i) * load<T>(r.below_y + i) +
+                             load<T>(r.y_high + i) * load<T>(r.above_y + i);
+  const LaneOf<T> across = load<T>(r.z_low + i) * load<T>(r.below_z + i) +
+                           load<T>(r.z_high + i) * load<T>(r.above_z + i);
+  return along + in_plane + across;
+}
+
+/// Calls f(rows beside row j, k), of either kind.
+template <class T, class F>
+auto with_rows(const Level<T>& l, const T* x, int j, int k, const F& f) {
+  return l.has_obstacles() ? f(partial_row_at(l, x, j, k)) : f(row_at(l, x, j, k));
+}
+
 template <class T>
 using MaskOf =
     std::conditional_t<std::is_same_v<T, float>,
@@ -76,9 +125,9 @@ LevelRow<T> level_row(const Level<T>& l) {
 // By value: stores to x could change what a reference names, and it would be read again each time.
 
 /// Solves for the voxels of a row whose number along x has this parity.
-template <class T>
-ACINUS_INLINE void smooth_row_of(LevelRow<T> l, NeighbourRows<T> r, const T* inverse, const T* b,
-                                 bool odd, T* x) {
+template <class T, class Rows>
+ACINUS_INLINE void smooth_row_of(LevelRow<T> l, Rows r, const T* inverse, const T* b, bool odd,
+                                 T* x) {
   const MaskOf<T> mask =
       odd ? MaskOf<T>{0, -1, 0, -1, 0, -1, 0, -1} : MaskOf<T>{-1, 0, -1, 0, -1, 0, -1, 0};
   for (std::size_t i = 0; i < l.n; i += kLanes) {
@@ -95,9 +144,8 @@ ACINUS_INLINE void start_row_of(std::size_t n, const T* inverse, const T* b, boo
   for (std::size_t i = 0; i < n; i += kLanes)
     store(x + i, mask ? load<T>(inverse + i) * load<T>(b + i) : zero);
 }
-template <class T>
-ACINUS_INLINE double multiply_row_of(LevelRow<T> l, NeighbourRows<T> r, const T* diagonal,
-                                     const T* x, T* y) {
+template <class T, class Rows>
+ACINUS_INLINE double multiply_row_of(LevelRow<T> l, Rows r, const T* diagonal, const T* x, T* y) {
   Lane sum = lane_of(0);
   for (std::size_t i = 0; i < l.n; i += kLanes) {
     const LaneOf<T> own = load<T>(x + i);
@@ -107,9 +155,9 @@ ACINUS_INLINE double multiply_row_of(LevelRow<T> l, NeighbourRows<T> r, const T*
   }
   return sum_lanes<double>(sum);
 }
-template <class T>
-ACINUS_INLINE void residual_row_of(LevelRow<T> l, NeighbourRows<T> r, const T* diagonal, const T* b,
-                                   const T* x, T* y) {
+template <class T, class Rows>
+ACINUS_INLINE void residual_row_of(LevelRow<T> l, Rows r, const T* diagonal, const T* b, const T* x,
+                                   T* y) {
   for (std::size_t i = 0; i < l.n; i += kLanes)
     store(y + i, load<T>(b + i) - load<T>(diagonal + i) * load<T>(x + i) +
                      inflow(l.low, l.high, l.width, r, x, i));
@@ -118,10 +166,6 @@ ACINUS_INLINE void residual_row_of(LevelRow<T> l, NeighbourRows<T> r, const T* d
 ACINUS_KERNEL void smooth_row(const LevelRow<float>& l, const NeighbourRows<float>& r,
                               const float* inverse, const float* b, bool odd, float* x) {
   smooth_row_of(l, r, inverse, b, odd, x);
-}
-ACINUS_KERNEL void start_row(std::size_t n, const float* inverse, const float* b, bool odd,
-                             float* x) {
-  start_row_of(n, inverse, b, odd, x);
 }
 ACINUS_KERNEL double multiply_row(const LevelRow<double>& l, const NeighbourRows<double>& r,
                                   const double* diagonal, const double* x, double* y) {
@@ -136,6 +180,27 @@ ACINUS_KERNEL void residual_row(const LevelRow<double>& l, const NeighbourRows<d
                                 double* y) {
   residual_row_of(l, r, diagonal, b, x, y);
 }
+ACINUS_KERNEL void smooth_row(const LevelRow<float>& l, const PartialRows<float>& r,
+                              const float* inverse, const float* b, bool odd, float* x) {
+  smooth_row_of(l, r, inverse, b, odd, x);
+}
+ACINUS_KERNEL double multiply_row(const LevelRow<double>& l, const PartialRows<double>& r,
+                                  const double* diagonal, const double* x, double* y) {
+  return multiply_row_of(l, r, diagonal, x, y);
+}
+ACINUS_KERNEL void residual_row(const LevelRow<float>& l, const PartialRows<float>& r,
+                                const float* diagonal, const float* b, const float* x, float* y) {
+  residual_row_of(l, r, diagonal, b, x, y);
+}
+ACINUS_KERNEL void residual_row(const LevelRow<double>& l, const PartialRows<double>& r,
+                                const double* diagonal, const double* b, const double* x,
+                                double* y) {
+  residual_row_of(l, r, diagonal, b, x, y);
+}
+ACINUS_KERNEL void start_row(std::size_t n, const float* inverse, const float* b, bool odd,
+                             float* x) {
+  start_row_of(n, inverse, b, odd, x);
+}
 
 /// Updates the voxels of one colour in plane k. Colour 0: i + j + k even.
 void smooth_plane(const Level<float>& l, const float* b, float* x, int k, int colour,
@@ -147,74 +212,22 @@ void smooth_plane(const Level<float>& l, const float* b, float* x, int k, int co
     if (from_zero)
       start_row(row.n, l.inverse.data() + at, b + at, odd, x + at);
     else
-      smooth_row(row, row_at(l, x, j, k), l.inverse.data() + at, b + at, odd, x + at);
+      with_rows(l, static_cast<const float*>(x), j, k, [&](const auto& rows) {
+        smooth_row(row, rows, l.inverse.data() + at, b + at, odd, x + at);
+      });
   }
 }
 
 }  // namespace
-
-PaddedLayout make_layout(const std::array<int, 3>& n) {
-  PaddedLayout layout;
-  layout.n = n;
-  const auto lanes = static_cast<std::size_t>((n[0] + kLanes - 1) / kLanes);
-  layout.stride = kLanes * (lanes + 1);
-  layout.size = layout.row(0, n[2]) + kLanes;
-  return layout;
-}
-
-template <class T>
-void set_faces(const std::array<double, 3>& conductance, Level<T>& l) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::vector<double>& width = l.width[axis];
-    l.face[axis].assign(width.size() + 1, 0.0);
-    for (std::size_t i = 1; i < width.size(); ++i)
-      l.face[axis][i] = conductance[axis] * 2 / (width[i - 1] + width[i]);
-  }
-  l.face_low.assign(l.layout.stride, T{0});
-  l.face_high.assign(l.layout.stride, T{0});
-  l.width_x.assign(l.layout.stride, T{0});
-  for (std::size_t i = 0; i < l.width[0].size(); ++i) {
-    l.face_low[i] = static_cast<T>(l.face[0][i]);
-    l.face_high[i] = static_cast<T>(l.face[0][i + 1]);
-    l.width_x[i] = static_cast<T>(l.width[0][i]);
-  }
-}
-
-/// Only levels in single precision are smoothed.
-template <class T>
-constexpr bool kSmooths = std::is_same_v<T, float>;
-
-template <class T>
-void set_diagonal(std::span<const double> all, Level<T>& l) {
-  const PaddedLayout& at = l.layout;
-  if (l.diagonal.size() != at.size) {
-    l.diagonal.assign(at.size, T{0});
-    if (kSmooths<T>) l.inverse.assign(at.size, T{0});
-  }
-  for_each_plane(at.n[2], at.n_voxel(), [&](int k) {
-    for (int j = 0; j < at.n[1]; ++j) {
-      const double wy = l.width[1][j], wz = l.width[2][k];
-      const double of_y = (l.face[1][j] + l.face[1][j + 1]) * wz;
-      const double of_z = (l.face[2][k] + l.face[2][k + 1]) * wy;
-      const std::size_t row = at.row(j, k);
-      const double* own = all.data() + static_cast<std::size_t>(at.n[0]) *
-                                           (static_cast<std::size_t>(k) * at.n[1] + j);
-      for (int i = 0; i < at.n[0]; ++i) {
-        const double of_x = (l.face[0][i] + l.face[0][i + 1]) * wy * wz;
-        const double sum = own[i] + of_x + l.width[0][i] * (of_y + of_z);
-        l.diagonal[row + i] = static_cast<T>(sum);
-        if constexpr (kSmooths<T>) l.inverse[row + i] = static_cast<T>(1 / sum);
-      }
-    }
-  });
-}
 
 double multiply_plane(const Level<double>& l, const double* x, double* y, int k) {
   const LevelRow<double> row = level_row(l);
   double sum = 0;
   for (int j = 0; j < l.layout.n[1]; ++j) {
     const std::size_t at = l.layout.row(j, k);
-    sum += multiply_row(row, row_at(l, x, j, k), l.diagonal.data() + at, x + at, y + at);
+    sum += with_rows(l, x, j, k, [&](const auto& rows) {
+      return multiply_row(row, rows, l.diagonal.data() + at, x + at, y + at);
+    });
   }
   return sum;
 }
@@ -250,15 +263,13 @@ void subtract_product(const Level<T>& l, const T* b, const T* x, T* r) {
   for_each_plane(l.layout.n[2], l.layout.n_voxel(), [&](int k) {
     for (int j = 0; j < l.layout.n[1]; ++j) {
       const std::size_t at = l.layout.row(j, k);
-      residual_row(row, row_at(l, x, j, k), l.diagonal.data() + at, b + at, x + at, r + at);
+      with_rows(l, x, j, k, [&](const auto& rows) {
+        residual_row(row, rows, l.diagonal.data() + at, b + at, x + at, r + at);
+      });
     }
   });
 }
 
-template void set_faces(const std::array<double, 3>&, Level<float>&);
-template void set_faces(const std::array<double, 3>&, Level<double>&);
-template void set_diagonal(std::span<const double>, Level<float>&);
-template void set_diagonal(std::span<const double>, Level<double>&);
 template void subtract_product(const Level<float>&, const float*, const float*, float*);
 template void subtract_product(const Level<double>&, const double*, const double*, double*);
 

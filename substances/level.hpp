@@ -1,6 +1,7 @@
 #pragma once
 /// One grid of the multigrid method: the matrix (own + sum of face conductances) on the diagonal,
-/// -conductance beside it, and its kernels.
+/// -conductance beside it, and its kernels. Conductances are products of widths, or with obstacles
+/// one number per face.
 ///
 /// Rows along x are padded to whole lanes with a leading lane of zeros, so that kernels read
 /// neighbours without branches: at(i, j, k) = first + (k n_y + j) stride + i.
@@ -40,14 +41,26 @@ struct Level {
   std::array<std::vector<double>, 3> face;      ///< per axis, [n + 1]; conductance below voxel i
                                                 ///< per area of a fine face; 0 at both ends
   std::vector<T> face_low, face_high, width_x;  ///< along x, [stride] in lanes
-  std::vector<T> diagonal;                      ///< [size]
-  std::vector<T> inverse;                       ///< [size], 0 in the padding; single precision only
+  /// With obstacles, per axis: conductance of the face below each voxel, [size]; else empty.
+  std::array<std::vector<T>, 3> partial;
+  std::vector<T> no_faces;  ///< [stride] zeros, faces above the last rows
+  std::vector<T> diagonal;  ///< [size]
+  std::vector<T> inverse;   ///< [size], 0 in the padding and in voxels without diagonal; single
+                            ///< precision only
+  bool has_obstacles() const { return !partial[0].empty(); }
 };
 
 /// Sets the conductances, for equal widths 1 on the finest grid.
 /// @param conductance  per axis, D dt / h^2
 template <class T>
 void set_faces(const std::array<double, 3>& conductance, Level<T>& level);
+
+/// Sets the conductances of faces that are partly open.
+/// @param open  per axis across, [n_face] open fraction; those at the faces of the box count
+/// nothing
+template <class T>
+void set_partial_faces(const std::array<double, 3>& conductance,
+                       const std::array<std::vector<double>, 3>& open, Level<T>& level);
 
 /// Sets the diagonal: the faces and `own`.
 /// @param own  [n_voxel] what is on the diagonal besides faces

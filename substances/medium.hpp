@@ -23,6 +23,9 @@ struct Medium {
   /// Sources that stay in place, such as vessels: gain - loss c.  [n_voxel] or empty
   std::vector<double> gain;  ///< concentration / s
   std::vector<double> loss;  ///< 1/s
+  /// The same of walls, with a substance that is kept out of obstacles: per volume of a voxel,
+  /// however much of it is open; those of closed voxels act on the open ones near by.
+  std::vector<double> wall_gain, wall_loss;
 };
 
 /// Exchange of a body with its surroundings per volume of the body, in concentration per s:

@@ -154,7 +154,15 @@ void Multigrid::resize(const std::array<int, 3>& n) {
   }
 }
 
-void Multigrid::set(std::span<const double> own, const std::array<double, 3>& conductance) {
+void Multigrid::set(std::span<const double> own, const std::array<double, 3>& conductance,
+                    const std::array<std::vector<double>, 3>* open) {
+  if (open != nullptr) {
+    set_faces(conductance, level_[0]);
+    set_partial_faces(conductance, *open, level_[0]);
+    set_diagonal(own, level_[0]);
+    aggregates_.set(level_[0], own);
+    return;
+  }
   for (std::size_t k = 0; k < level_.size(); ++k) {
     if (k > 0) {
       own_[k] = join_own(own, level_[k - 1].layout.n, level_[k].layout.n);
@@ -170,6 +178,12 @@ void Multigrid::apply(const float* b, float* x) { cycle(0, b, x); }
 void Multigrid::cycle(std::size_t at, const float* b, float* x) {
   const Level<float>& level = level_[at];
   smooth(level, b, x, true, true);
+  if (level.has_obstacles()) {
+    subtract_product(level, b, x, residual_[0].data());
+    aggregates_.correct(level.layout, residual_[0].data(), x);
+    smooth(level, b, x, false, false);
+    return;
+  }
   if (at + 1 == level_.size()) {
     smooth(level, b, x, false, false);
     for (int k = 1; k < kCoarsestSweeps; ++k) {

@@ -1,11 +1,12 @@
 #pragma once
-/// Multigrid preconditioner of diffusion: one symmetric V-cycle in single precision.
+/// Multigrid preconditioner of diffusion: one symmetric cycle in single precision.
 
 #include <array>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "substances/aggregates.hpp"
 #include "substances/level.hpp"
 
 namespace acinus::substances {
@@ -22,7 +23,8 @@ struct Transfer {
 };
 
 /// Grids from the finest to the coarsest. Every second voxel along an axis is dropped while there
-/// are more than one.
+/// are more than one. Among obstacles coarse voxels would join pockets that are apart: groups of
+/// voxels that are connected take their place (Aggregates).
 class Multigrid {
  public:
   /// Sizes all levels.
@@ -31,9 +33,11 @@ class Multigrid {
   /// Sets the matrix own + diffusion on all levels; coarser ones are discretised anew.
   /// @param own          [n_voxel]
   /// @param conductance  per axis, D dt / h^2
-  void set(std::span<const double> own, const std::array<double, 3>& conductance);
+  /// @param open         per axis across, [n_face] open fraction of faces; nullptr: all are open
+  void set(std::span<const double> own, const std::array<double, 3>& conductance,
+           const std::array<std::vector<double>, 3>* open = nullptr);
 
-  /// x = V-cycle(b) from zero.   @param b, x  [size] of the finest level
+  /// x = cycle(b) from zero.   @param b, x  [size] of the finest level
   void apply(const float* b, float* x);
 
   const PaddedLayout& layout() const { return level_.front().layout; }
@@ -43,6 +47,7 @@ class Multigrid {
   void cycle(std::size_t at, const float* b, float* x);
 
   std::vector<Level<float>> level_;
+  Aggregates aggregates_;  ///< in place of coarser levels if the finest has obstacles
   std::vector<std::array<Transfer, 3>> transfer_;   ///< [n_level - 1]
   std::vector<std::vector<double>> own_;            ///< [n_level], unused on the finest
   std::vector<std::vector<float>> residual_;        ///< [n_level]

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/sphere.hpp"
+#include "substances/crossings.hpp"
 
 namespace acinus::substances {
 namespace {
@@ -39,6 +40,16 @@ class Columns {
     return std::max(n, column_[axis]);
   }
   long end_column(int axis) const { return column_[axis] + n_column_[axis]; }
+
+  /// ColumnPlaces of the columns along an axis, for for_each_crossing.
+  struct ColumnPlaces {
+    const Columns& columns;
+    int axis;
+    double at(long k) const { return columns.at(axis, k); }
+    long first(double from) const { return columns.first_column(axis, from); }
+    long end() const { return columns.end_column(axis); }
+  };
+  ColumnPlaces along(int axis) const { return {*this, axis}; }
 
   /// Adds sign times the column (x, y) from the bottom of the body up to z.
   void add(double x, double y, double z, double sign) {
@@ -89,25 +100,39 @@ class Columns {
   std::vector<double> length_;  ///< [y][x][z] um
 };
 
-/// Position of a point relative to the directed edge a -> b, seen from above: +1 left, -1 right.
-/// Both triangles of an edge get opposite answers, also for points on it.
-struct ProjectedNode {
-  int index;
-  double x, y;
-};
-int side_of(const ProjectedNode& a, const ProjectedNode& b, double x, double y) {
-  const bool flipped = a.index > b.index;
-  const ProjectedNode &p = flipped ? b : a, &q = flipped ? a : b;
-  const double e = (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x);
-  return (e >= 0) != flipped ? 1 : -1;
-}
-
 double volume_inside(std::span<const Vec3> node, std::span<const std::array<int, 3>> triangle,
                      const Vec3& center) {
   double sum = 0;
   for (const auto& [a, b, c] : triangle)
     sum += (node[a] - center).dot((node[b] - center).cross(node[c] - center));
   return sum / 6;
+}
+
+/// Points of a surface, at most this far apart in voxels.
+constexpr double kPointsApart = 1.0 / 3;
+
+std::size_t voxel_of(const VoxelGrid& grid, const Vec3& x) {
+  std::array<int, 3> at{};
+  for (int axis = 0; axis < 3; ++axis)
+    at[axis] = static_cast<int>(std::clamp(
+        std::floor((x[axis] - grid.low[axis]) / grid.spacing[axis]), 0.0, grid.n[axis] - 1.0));
+  return grid.index(at[0], at[1], at[2]);
+}
+
+/// Joins the shares of a voxel, in order of voxels, and scales them to a sum.
+std::vector<VoxelShare> join_shares(std::vector<VoxelShare> part, double sum) {
+  std::ranges::stable_sort(part, {}, &VoxelShare::voxel);
+  std::vector<VoxelShare> joined;
+  double all = 0;
+  for (const VoxelShare& p : part) {
+    all += p.volume;
+    if (joined.empty() || joined.back().voxel != p.voxel)
+      joined.push_back(p);
+    else
+      joined.back().volume += p.volume;
+  }
+  for (VoxelShare& p : joined) p.volume *= sum / all;
+  return joined;
 }
 
 }  // namespace
@@ -138,26 +163,53 @@ std::vector<VoxelShare> share_surface(const VoxelGrid& grid, std::span<const Vec
   for (const Vec3& x : node) box.include(x);
   const Vec3 center = 0.5 * (box.low + box.high);
   Columns columns(grid, box);
-  for (const auto& t : triangle) {
-    const Vec3 &a = node[t[0]], &b = node[t[1]], &c = node[t[2]];
-    const Vec3 normal = (b - a).cross(c - a);
-    if (normal.z() == 0) continue;
-    const ProjectedNode p{t[0], a.x(), a.y()}, q{t[1], b.x(), b.y()}, r{t[2], c.x(), c.y()};
-    const double right = std::max({p.x, q.x, r.x}), top = std::max({p.y, q.y, r.y});
-    const int turn = normal.z() > 0 ? 1 : -1;
-    for (long j = columns.first_column(1, std::min({p.y, q.y, r.y}));
-         j < columns.end_column(1) && columns.at(1, j) <= top; ++j)
-      for (long i = columns.first_column(0, std::min({p.x, q.x, r.x}));
-           i < columns.end_column(0) && columns.at(0, i) <= right; ++i) {
-        const double x = columns.at(0, i), y = columns.at(1, j);
-        if (side_of(p, q, x, y) != turn || side_of(q, r, x, y) != turn ||
-            side_of(r, p, x, y) != turn)
-          continue;
-        const double z = a.z() - ((x - a.x()) * normal.x() + (y - a.y()) * normal.y()) / normal.z();
-        columns.add(x, y, z, turn);
+  for_each_crossing(node, triangle, 2, columns.along(0), columns.along(1),
+                    [&](long i, long j, double z, int turn) {
+                      columns.add(columns.at(0, i), columns.at(1, j), z, turn);
+                    });
+  return columns.finish(std::max(0.0, volume_inside(node, triangle, center)), center);
+}
+
+std::vector<VoxelShare> share_sphere_by_area(const VoxelGrid& grid, const Vec3& center,
+                                             double radius) {
+  constexpr double kLeastPoints = 100;
+  const double apart = kPointsApart * grid.spacing.minCoeff();
+  const auto n = static_cast<int>(
+      std::ceil(std::max(kLeastPoints, 4 * kPi * radius * radius / (apart * apart))));
+  // Points of equal area on a spiral.
+  const double turn = kPi * (3 - std::sqrt(5.0));
+  std::vector<VoxelShare> part;
+  for (int k = 0; k < n; ++k) {
+    const double z = 1 - (2 * k + 1.0) / n, across = std::sqrt(1 - z * z);
+    const Vec3 x(across * std::cos(turn * k), across * std::sin(turn * k), z);
+    part.push_back({voxel_of(grid, center + radius * x), 1});
+  }
+  return join_shares(std::move(part), sphere_volume(radius));
+}
+
+std::vector<VoxelShare> share_surface_by_area(const VoxelGrid& grid, std::span<const Vec3> node,
+                                              std::span<const std::array<int, 3>> triangle) {
+  const double apart = kPointsApart * grid.spacing.minCoeff();
+  std::vector<VoxelShare> part;
+  Box box;
+  for (const Vec3& x : node) box.include(x);
+  for (const auto& [a, b, c] : triangle) {
+    const Vec3 &o = node[a], u = node[b] - o, v = node[c] - o;
+    const double longest = std::max({u.norm(), v.norm(), (u - v).norm()});
+    const int n = std::max(1, static_cast<int>(std::ceil(longest / apart)));
+    const double area = 0.5 * u.cross(v).norm() / (n * n);
+    // Middles of n^2 equal triangles: upright ones, and those between them.
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i + j < n; ++i) {
+        const auto add = [&](double third) {
+          part.push_back({voxel_of(grid, o + ((i + third) * u + (j + third) * v) / n), area});
+        };
+        add(1.0 / 3);
+        if (i + j + 1 < n) add(2.0 / 3);
       }
   }
-  return columns.finish(std::max(0.0, volume_inside(node, triangle, center)), center);
+  return join_shares(std::move(part),
+                     std::max(0.0, volume_inside(node, triangle, 0.5 * (box.low + box.high))));
 }
 
 double mean_over(std::span<const VoxelShare> body, std::span<const double> field) {

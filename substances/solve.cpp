@@ -94,8 +94,9 @@ void Solver::resize(const std::array<int, 3>& n) {
 SolveResult Solver::solve(const StepSystem& system, double tolerance, std::span<double> c) {
   const PaddedLayout& l = level_.layout;
   set_faces(system.conductance, level_);
+  if (system.open != nullptr) set_partial_faces(system.conductance, *system.open, level_);
   set_diagonal<double>(system.own, level_);
-  multigrid_.set(system.own, system.conductance);
+  multigrid_.set(system.own, system.conductance, system.open);
 
   for_each_voxel(l, [&](std::size_t at, std::size_t voxel) {
     x_[at] = c[voxel];

@@ -14,8 +14,10 @@ namespace acinus::substances {
 /// (own + conductance of faces) c = rhs.
 struct StepSystem {
   std::array<double, 3> conductance{};  ///< per axis, D dt / h^2
-  std::vector<double> own;              ///< [n_voxel] > 0
-  std::vector<double> rhs;              ///< [n_voxel]
+  std::vector<double> own;              ///< [n_voxel] > 0; 0 in voxels whose faces are all closed
+  /// Per axis across, [n_face] open fraction of faces; nullptr: all are open.
+  const std::array<std::vector<double>, 3>* open = nullptr;
+  std::vector<double> rhs;  ///< [n_voxel]
 };
 
 struct SolveResult {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/numbers/random.hpp"
+#include "substances/grid.hpp"
 #include "substances/solve.hpp"
 
 namespace acinus::substances {
@@ -68,6 +69,86 @@ TEST(Multigrid, NeedsFewIterationsForAnyStep) {
       EXPECT_TRUE(result.converged);
       EXPECT_LE(result.iterations, 15);
     }
+  }
+}
+
+/// Random open fractions of faces, a third of them closed, and voxels of which a fifth are closed.
+struct RandomObstacles {
+  std::array<int, 3> n{13, 6, 9};
+  std::array<std::vector<double>, 3> face;
+  std::vector<double> own;
+  RandomObstacles() {
+    VoxelGrid g;
+    g.n = n;
+    own = numbers(g.n_voxel(), 0, 1, 11);
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double x : numbers(g.n_face(axis), -0.5, 1, 12 + static_cast<unsigned>(axis)))
+        face[axis].push_back(std::max(0.0, x));
+    std::size_t v = 0;
+    for (int k = 0; k < n[2]; ++k)
+      for (int j = 0; j < n[1]; ++j)
+        for (int i = 0; i < n[0]; ++i, ++v) {
+          if (own[v] > 0.2) continue;
+          own[v] = 0;
+          for (int axis = 0; axis < 3; ++axis)
+            for (const int side : {0, 1})
+              face[axis][g.face_index(axis, i + (axis == 0 ? side : 0), j + (axis == 1 ? side : 0),
+                                      k + (axis == 2 ? side : 0))] = 0;
+        }
+  }
+  /// Numbers in open voxels.
+  template <class T>
+  std::vector<T> spread(const PaddedLayout& at, std::uint64_t salt) const {
+    std::vector<T> x(at.size, T{0});
+    std::size_t v = 0;
+    for (int k = 0; k < n[2]; ++k)
+      for (int j = 0; j < n[1]; ++j)
+        for (int i = 0; i < n[0]; ++i, ++v)
+          if (own[v] > 0) x[at.row(j, k) + i] = static_cast<T>(number(v + 77777 * salt) - 0.5);
+    return x;
+  }
+};
+
+template <class T>
+double product(const std::vector<T>& a, const std::vector<T>& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += static_cast<double>(a[k]) * b[k];
+  return sum;
+}
+
+TEST(Multigrid, MatrixAmongObstaclesIsSymmetricAndPositive) {
+  const RandomObstacles o;
+  Level<double> level;
+  level.layout = make_layout(o.n);
+  for (int axis = 0; axis < 3; ++axis) level.width[axis].assign(o.n[axis], 1.0);
+  set_faces({40, 50, 60}, level);
+  set_partial_faces({40, 50, 60}, o.face, level);
+  set_diagonal<double>(o.own, level);
+  std::vector<double> aa(level.layout.size, 0.0), ab = aa;
+  for (std::uint64_t salt = 1; salt < 20; ++salt) {
+    const std::vector<double> a = o.spread<double>(level.layout, salt),
+                              b = o.spread<double>(level.layout, salt + 100);
+    EXPECT_GT(multiply(level, a.data(), aa.data()), 0);
+    multiply(level, b.data(), ab.data());
+    EXPECT_NEAR(product(b, aa), product(a, ab), 1e-12 * product(aa, aa));
+  }
+}
+
+TEST(Multigrid, CycleAmongObstaclesIsSymmetricAndPositive) {
+  const RandomObstacles o;
+  Multigrid grids;
+  grids.resize(o.n);
+  grids.set(o.own, {40, 50, 60}, &o.face);
+  const PaddedLayout& at = grids.layout();
+  std::vector<float> ma(at.size, 0.0F), mb = ma;
+  for (std::uint64_t salt = 1; salt < 20; ++salt) {
+    const std::vector<float> a = o.spread<float>(at, salt), b = o.spread<float>(at, salt + 100);
+    grids.apply(a.data(), ma.data());
+    grids.apply(b.data(), mb.data());
+    EXPECT_GT(product(a, ma), 0);
+    // Single precision: the sizes of the terms times some of its epsilon.
+    const double size = std::sqrt(product(a, ma) * product(b, mb));
+    EXPECT_NEAR(product(b, ma), product(a, mb), 1e-5 * size);
   }
 }
 
