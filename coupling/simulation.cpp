@@ -59,6 +59,7 @@ void Simulation::end_step_of_start_up(const Observer& observer) {
   const std::string what = update_phase(world_, work_);
   if (!what.empty() && observer.phase) observer.phase(what);
   if (!is_running()) return;
+  begin_open_spaces(world_);
   if (observer.start) observer.start();
   begin_life(world_);
 }

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <limits>
+#include <optional>
 
 #include "core/error.hpp"
 #include "core/parallel/threads.hpp"
@@ -24,13 +27,38 @@ std::vector<Cell> list_cells(const State& s) {
 }
 
 std::vector<substances::VoxelShare> share_cell(const substances::VoxelGrid& grid, const State& s,
-                                               const Cell& c) {
-  if (!c.deformable)
-    return substances::share_sphere(grid, cbm::center_of(s.cbm, c.at),
-                                    sphere_radius(s.cbm.volume[c.at].at(s.clock.time)));
+                                               const Cell& c, bool by_area) {
+  if (!c.deformable) {
+    const auto share = by_area ? substances::share_sphere_by_area : substances::share_sphere;
+    return share(grid, cbm::center_of(s.cbm, c.at),
+                 sphere_radius(s.cbm.volume[c.at].at(s.clock.time)));
+  }
   std::vector<Vec3> node;
   dcm::copy_nodes(s.dcm, c.at, node);
-  return substances::share_surface(grid, node, s.dcm.group[c.at / kLanes].topology->triangle);
+  const auto share = by_area ? substances::share_surface_by_area : substances::share_surface;
+  return share(grid, node, s.dcm.group[c.at / kLanes].topology->triangle);
+}
+
+/// Shares of all cells of both kinds, each found when a substance needs it.
+class SharesOfCells {
+ public:
+  SharesOfCells(const SubstanceParams& p, const State& s) : params_(p), state_(s) {}
+  const substances::Shares& of(const Substance& substance) {
+    std::optional<substances::Shares>& shares = shares_[substance.outside_cells ? 1 : 0];
+    if (!shares) shares = share_cells(params_, state_, substance.outside_cells);
+    return *shares;
+  }
+
+ private:
+  const SubstanceParams& params_;
+  const State& state_;
+  std::array<std::optional<substances::Shares>, 2> shares_;
+};
+
+/// The same shares in open voxels.
+substances::Shares move_to_open(substances::Shares shares, const substances::OpenSpace& space) {
+  for (substances::VoxelShare& s : shares.share) s.voxel = space.nearest[s.voxel];
+  return shares;
 }
 
 bool is_dissolving(const State& s, const Cell& c) {
@@ -77,6 +105,16 @@ std::vector<substances::Exchange> exchange_of_cells(const Substance& substance, 
   return exchange;
 }
 
+/// Amounts of a field per volume of a voxel, none of them in closed voxels.
+std::span<const double> hold_amounts(const SubstanceState& field,
+                                     const substances::OpenSpace& space,
+                                     std::vector<double>& held) {
+  held.resize(field.concentration.size());
+  std::ranges::transform(field.open, field.concentration, held.begin(), std::multiplies<>{});
+  substances::carry_amounts(space, held);
+  return held;
+}
+
 /// f(substance, cell, its shares) for all cells, [substance][dcm lanes, then cbm cells].
 template <class F>
 std::vector<std::vector<double>> of_each_cell(const World& world, const F& f) {
@@ -84,9 +122,10 @@ std::vector<std::vector<double>> of_each_cell(const World& world, const F& f) {
   const State& s = world.state;
   if (!p.exists()) return {};
   const std::vector<Cell> cells = list_cells(s);
-  const substances::Shares shares = share_cells(p, s);
+  SharesOfCells all(p, s);
   std::vector<std::vector<double>> value;
   for (std::size_t k = 0; k < s.substance.size(); ++k) {
+    const substances::Shares& shares = all.of(p.substance[k]);
     std::vector<double>& of_cell = value.emplace_back(s.dcm.n_lane() + s.cbm.n_cell(), 0.0);
     for (std::size_t b = 0; b < cells.size(); ++b)
       of_cell[cells[b].index] = f(k, cells[b], shares.of(b));
@@ -105,11 +144,11 @@ void begin_substances(const SubstanceParams& p, State& s) {
   }
 }
 
-substances::Shares share_cells(const SubstanceParams& p, const State& s) {
+substances::Shares share_cells(const SubstanceParams& p, const State& s, bool by_area) {
   const std::vector<Cell> cells = list_cells(s);
   std::vector<std::vector<substances::VoxelShare>> share(cells.size());
   for_each_index(cells.size(), cells.size() > kParallelShares,
-                 [&](std::size_t k) { share[k] = share_cell(p.grid, s, cells[k]); });
+                 [&](std::size_t k) { share[k] = share_cell(p.grid, s, cells[k], by_area); });
   substances::Shares shares;
   for (const auto& of_cell : share) shares.add(of_cell);
   return shares;
@@ -125,17 +164,31 @@ void advance_substances(World& world, double step, SubstanceWorkspace& work, Tim
     work.sized = true;
   }
   const std::vector<Cell> cells = list_cells(s);
-  const substances::Shares shares = share_cells(p, s);
+  SharesOfCells all(p, s);
+  const OpenSpaces spaces = find_open_spaces(world, work.obstacles);
   for (std::size_t k = 0; k < p.substance.size(); ++k) {
     const Substance& substance = p.substance[k];
     SubstanceState& field = s.substance[k];
+    const substances::OpenSpace* space = spaces.of(substance);
+    const substances::Shares& everywhere = all.of(substance);
+    const substances::Shares in_open =
+        space == nullptr ? substances::Shares{} : move_to_open(everywhere, *space);
+    const substances::Shares& shares = space == nullptr ? everywhere : in_open;
     const std::vector<substances::Exchange> exchange =
         exchange_of_cells(substance, s, cells, shares);
     const double middle = time_of(s) - 0.5 * step;
-    const double supply = substance.course.entry.empty() ? 1 : substance.course.at(middle);
+    substances::Advance how{step, p.longest_step, p.tolerance};
+    if (!substance.course.entry.empty()) how.supply = substance.course.at(middle);
+    if (space != nullptr) {
+      how.space = space;
+      how.held = hold_amounts(field, *space, work.held);
+    }
     const substances::Budget budget = substances::advance(
-        p.grid, substance.medium, {shares, exchange}, {step, p.longest_step, p.tolerance, supply},
-        work.solver, field.concentration, {});
+        p.grid, substance.medium, {shares, exchange}, how, work.solver, field.concentration, {});
+    if (space != nullptr) {
+      substances::fill_closed(p.grid, *space, field.concentration);
+      field.open = space->volume;
+    }
     check(budget.converged,
           fmt::format("the field of {} does not converge at t = {:.4g} h. Take a shorter "
                       "substance_grid.step or a larger substance_grid.tolerance.",
@@ -146,6 +199,10 @@ void advance_substances(World& world, double step, SubstanceWorkspace& work, Tim
     field.supplied += budget.supplied;
     field.decayed += budget.decayed;
   }
+}
+
+double amount_of(const SubstanceParams& p, const SubstanceState& field) {
+  return substances::total_amount(p.grid, field.concentration, field.open);
 }
 
 double next_supply_change(const SubstanceParams& p, double time) {

@@ -13,7 +13,8 @@ constexpr int kPiecesAround = 12;
 }  // namespace
 
 void add_vessel_feed(const substances::VoxelGrid& grid, const geometry::Network& vessels,
-                     double permeability, double concentration, substances::Medium& medium) {
+                     double permeability, double concentration, std::span<double> gain,
+                     std::span<double> loss) {
   const Box box = grid.box();
   for (std::size_t k = 0; k < vessels.segment.size(); ++k) {
     const Vec3 &from = vessels.node[vessels.segment[k][0]],
@@ -39,8 +40,8 @@ void add_vessel_feed(const substances::VoxelGrid& grid, const geometry::Network&
         };
         const std::size_t voxel = grid.index(at(0), at(1), at(2));
         const double rate = permeability * area / grid.voxel_volume();
-        medium.loss[voxel] += rate;
-        medium.gain[voxel] += rate * concentration;
+        loss[voxel] += rate;
+        gain[voxel] += rate * concentration;
       }
     }
   }

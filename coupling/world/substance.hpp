@@ -26,6 +26,9 @@ struct Substance {
   double initial = 0;
   Schedule course;  ///< factor on the values of faces, vessels and sources, s since t = 0; empty: 1
   std::vector<CellExchange> exchange;  ///< [cell type]
+  bool outside_cells = false;          ///< kept out of cells
+  bool outside_obstacles = false;      ///< kept out of walls, vessels and static meshes
+  bool is_kept_out() const { return outside_cells || outside_obstacles; }
 };
 
 /// Behaviour of a cell that a substance changes.
@@ -59,7 +62,8 @@ struct SubstanceParams {
 
 /// Field of one substance, and what it gained and lost since t = 0 (amounts).
 struct SubstanceState {
-  std::vector<double> concentration;  ///< [n_voxel]
+  std::vector<double> concentration;  ///< [n_voxel] in the open space; values around it if closed
+  std::vector<double> open;           ///< [n_voxel] open fraction of a voxel; empty: all is open
   double secreted = 0, entered = 0, supplied = 0, decayed = 0;
 };
 

@@ -127,6 +127,7 @@ std::uint64_t hash_state(const State& s) {
                  s.sleep_interval, s.life_interval, s.next_lineage, s.divisions, s.deaths});
   for (const SubstanceState& field : s.substance) {
     add(field.concentration);
+    if (!field.open.empty()) add(field.open);
     add(std::array{field.secreted, field.entered, field.supplied, field.decayed});
   }
   const std::uint64_t value = XXH64_digest(hash);

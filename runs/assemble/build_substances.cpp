@@ -24,6 +24,9 @@ namespace {
 /// Memory of the solver per voxel, measured with 3.4 million of them, and of a field with its
 /// sources, bytes.
 constexpr double kBytesPerVoxel = 130, kBytesPerFieldVoxel = 24;
+/// More of them if a substance is kept out: its open space, and groups of voxels while they are
+/// made.
+constexpr double kBytesPerOpenVoxel = 230;
 
 int index_of(const Scene& scene, const std::string& substance) {
   const auto found = std::ranges::find(scene.substances, substance, &SubstanceBlock::name);
@@ -67,7 +70,7 @@ Box find_box(const Scene& scene, const coupling::World& world) {
 
 void check_size(const Scene& scene, const Box& box, double spacing) {
   const double n = substances::count_voxels(box, spacing);
-  const double needed = substance_memory(n, scene.substances.size()), limit = machine_memory();
+  const double needed = substance_memory(n, scene.substances), limit = machine_memory();
   constexpr double kMostVoxels = 1e9;
   check(needed <= limit && n <= kMostVoxels,
         fmt::format("{}: /substance_grid: {:.3g} voxels of {:.3g} um need {:.3g} GB of memory, and "
@@ -96,9 +99,15 @@ substances::Medium make_medium(const Scene& scene, const SubstanceBlock& b,
           m.gain[v] += source.secretion;
           if (source.saturation > 0) m.loss[v] += source.secretion / source.saturation;
         }
-  if (b.vessels)
-    coupling::add_vessel_feed(grid, coupling::vessels_at_rest(world.params),
-                              b.vessels->permeability, b.vessels->concentration, m);
+  if (!b.vessels) return m;
+  const bool kept_out = b.outside_cells || b.outside_obstacles;
+  if (kept_out) {
+    m.wall_gain.assign(grid.n_voxel(), 0.0);
+    m.wall_loss.assign(grid.n_voxel(), 0.0);
+  }
+  coupling::add_vessel_feed(grid, coupling::vessels_at_rest(world.params), b.vessels->permeability,
+                            b.vessels->concentration, kept_out ? m.wall_gain : m.gain,
+                            kept_out ? m.wall_loss : m.loss);
   return m;
 }
 
@@ -110,6 +119,8 @@ coupling::Substance make_substance(const Scene& scene, const SubstanceBlock& b,
   s.initial = b.initial;
   s.course = b.course;
   s.medium = make_medium(scene, b, world);
+  s.outside_cells = b.outside_cells;
+  s.outside_obstacles = b.outside_obstacles;
   for (const auto& [name, type] : scene.cell_types) {
     const auto found = std::ranges::find(type.exchange, b.name, &ExchangeEntry::substance);
     s.exchange.push_back(found == type.exchange.end() ? coupling::CellExchange{}
@@ -141,8 +152,11 @@ void check_inside(const Scene& scene, const coupling::World& world) {
 
 }  // namespace
 
-double substance_memory(double n_voxel, std::size_t n_substance) {
-  return n_voxel * (kBytesPerVoxel + kBytesPerFieldVoxel * static_cast<double>(n_substance));
+double substance_memory(double n_voxel, const std::vector<SubstanceBlock>& substances) {
+  const bool kept_out = std::ranges::any_of(
+      substances, [](const SubstanceBlock& s) { return s.outside_cells || s.outside_obstacles; });
+  return n_voxel * (kBytesPerVoxel + (kept_out ? kBytesPerOpenVoxel : 0) +
+                    kBytesPerFieldVoxel * static_cast<double>(substances.size()));
 }
 
 std::vector<std::int64_t> find_cells_outside_fields(const coupling::World& world) {
@@ -173,13 +187,14 @@ void build_substances(const Scene& scene, coupling::World& world, Notes& notes) 
   for (const SignalRuleEntry& r : scene.rules) p.rule.push_back(make_rule(scene, r));
   check_inside(scene, world);
   coupling::begin_substances(p, world.state);
+  coupling::begin_open_spaces(world);
   notes.info.push_back(fmt::format(
       "substances ({}): {} x {} x {} = {} voxels of {:.3g} x {:.3g} x {:.3g} um from ({:.4g}, "
       "{:.4g}, {:.4g}) um, {:.2g} GB",
       fmt::join(scene.substances | std::views::transform(&SubstanceBlock::name), ", "), p.grid.n[0],
       p.grid.n[1], p.grid.n[2], p.grid.n_voxel(), p.grid.spacing.x(), p.grid.spacing.y(),
       p.grid.spacing.z(), p.grid.low.x(), p.grid.low.y(), p.grid.low.z(),
-      1e-9 * substance_memory(static_cast<double>(p.grid.n_voxel()), p.substance.size())));
+      1e-9 * substance_memory(static_cast<double>(p.grid.n_voxel()), scene.substances)));
 }
 
 }  // namespace acinus::runs

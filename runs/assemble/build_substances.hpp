@@ -17,7 +17,7 @@ namespace acinus::runs {
 void build_substances(const Scene& scene, coupling::World& world, Notes& notes);
 
 /// Memory of fields and their solver, bytes.
-double substance_memory(double n_voxel, std::size_t n_substance);
+double substance_memory(double n_voxel, const std::vector<SubstanceBlock>& substances);
 
 /// Lineages of the cells with their centre outside the box of the fields.
 std::vector<std::int64_t> find_cells_outside_fields(const coupling::World& world);

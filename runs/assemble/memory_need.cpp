@@ -44,7 +44,7 @@ double bytes_of_fields(const Scene& scene) {
     for (const auto& [name, type] : scene.cell_types) spacing = std::min(spacing, type.radius);
   }
   return substance_memory(substances::count_voxels({(*g.box)[0], (*g.box)[1]}, spacing),
-                          scene.substances.size());
+                          scene.substances);
 }
 
 std::string in_gigabytes(double bytes) { return fmt::format("{:.3g} GB", 1e-9 * bytes); }

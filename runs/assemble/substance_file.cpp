@@ -16,6 +16,7 @@ void put_substances(const coupling::State& s, io::CheckpointData& d) {
     const coupling::SubstanceState& field = s.substance[k];
     const std::string name = fmt::format("substances/{}/", k);
     d.put(name + "concentration", field.concentration);
+    if (!field.open.empty()) d.put(name + "open", field.open);
     d.put(name + "amounts",
           std::vector{field.secreted, field.entered, field.supplied, field.decayed});
   }
@@ -41,7 +42,9 @@ void get_substances(const io::CheckpointData& d, coupling::State& s) {
     const std::vector<double>& amounts = d.numbers(name + "amounts");
     check_same(d, name + "amounts", amounts.size(), 4);
     s.substance.push_back(
-        {d.numbers(name + "concentration"), amounts[0], amounts[1], amounts[2], amounts[3]});
+        {d.numbers(name + "concentration"),
+         d.contains(name + "open") ? d.numbers(name + "open") : std::vector<double>{}, amounts[0],
+         amounts[1], amounts[2], amounts[3]});
   }
   const std::vector<Vec3> force = unflatten_points(d.numbers("substances/guidance_force")),
                           heading = unflatten_points(d.numbers("substances/guidance_heading"));
@@ -64,7 +67,10 @@ void check_substances(const coupling::SubstanceParams& p, const coupling::State&
           Exit::kFileError);
   };
   need(s.substance.size() == p.substance.size());
-  for (const coupling::SubstanceState& field : s.substance) {
+  for (std::size_t k = 0; k < p.substance.size(); ++k) {
+    const coupling::SubstanceState& field = s.substance[k];
+    need(field.open.size() == (p.substance[k].is_kept_out() ? p.grid.n_voxel() : 0) &&
+         std::ranges::all_of(field.open, [](double open) { return open >= 0 && open <= 1; }));
     need(field.concentration.size() == p.grid.n_voxel() &&
          std::ranges::all_of(field.concentration, [](double c) { return std::isfinite(c); }));
     for (const double amount : {field.secreted, field.entered, field.supplied, field.decayed})
@@ -80,6 +86,9 @@ io::FieldFrame make_field_frame(const coupling::World& world, double time) {
   for (std::size_t k = 0; k < p.substance.size(); ++k) {
     const std::vector<double>& c = world.state.substance[k].concentration;
     frame.field.push_back({p.substance[k].name, p.substance[k].unit, {c.begin(), c.end()}});
+    const std::vector<double>& open = world.state.substance[k].open;
+    if (!open.empty())
+      frame.field.push_back({p.substance[k].name + "_open", "1", {open.begin(), open.end()}});
   }
   return frame;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/sphere.hpp"
 #include "coupling/life/cell_cycle.hpp"
@@ -11,7 +12,6 @@
 #include "coupling/substances/fields.hpp"
 #include "coupling/world/cell.hpp"
 #include "runs/experiments/observables.hpp"
-#include "substances/diffusion.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -141,8 +141,11 @@ void sample_substances(const coupling::World& world, Measures& m) {
       exchange += rate[k][c.index];
     });
     const double none = std::numeric_limits<double>::quiet_NaN();
-    m[name + "_mean"].push_back(substances::total_amount(p.grid, field) / p.grid.voxel_volume() /
-                                static_cast<double>(field.size()));
+    const coupling::SubstanceState& state = world.state.substance[k];
+    const double space = state.open.empty()
+                             ? static_cast<double>(field.size())
+                             : std::accumulate(state.open.begin(), state.open.end(), 0.0);
+    m[name + "_mean"].push_back(coupling::amount_of(p, state) / p.grid.voxel_volume() / space);
     m[name + "_mean_of_cells"].push_back(n > 0 ? sum / n : none);
     m[name + "_lowest_of_cells"].push_back(n > 0 ? lowest : none);
     m[name + "_highest_of_cells"].push_back(n > 0 ? highest : none);

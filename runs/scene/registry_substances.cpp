@@ -121,6 +121,19 @@ void describe_substance(Visitor& v, SubstanceBlock& b) {
   optional_block(
       v, {.name = "vessels", .meaning = "exchange with vessels, along their walls; null = none"},
       b.vessels, describe_vessel_feed);
+  choice(v,
+         {.name = "cells",
+          .meaning = "pass: it diffuses through cells; keep_out: around them only. Concentrations "
+                     "are then those of the space between cells, which exchange it through their "
+                     "surface",
+          .choices = "pass|keep_out"},
+         b.outside_cells);
+  choice(v,
+         {.name = "obstacles",
+          .meaning = "pass: it diffuses through walls, vessels and static meshes; keep_out: around "
+                     "them only. Vessels that supply it do so through their walls",
+          .choices = "pass|keep_out"},
+         b.outside_obstacles);
 }
 
 void describe_substance_grid(Visitor& v, SubstanceGridBlock& b) {

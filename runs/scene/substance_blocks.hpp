@@ -43,6 +43,8 @@ struct SubstanceBlock {
   std::vector<FaceEntry> faces;
   std::vector<SourceEntry> sources;
   std::optional<VesselFeed> vessels;
+  bool outside_cells = false;      ///< kept out of cells
+  bool outside_obstacles = false;  ///< kept out of walls, vessels and static meshes
 };
 
 struct SubstanceGridBlock {

@@ -8,12 +8,12 @@
 #include "acinus_version.hpp"
 #include "core/parallel/machine.hpp"
 #include "core/parallel/memory.hpp"
+#include "coupling/substances/fields.hpp"
 #include "io/disk.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/experiments/figures.hpp"
 #include "runs/session/sphere_overlaps.hpp"
-#include "substances/diffusion.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -113,15 +113,14 @@ OrderedJson list_substances(const coupling::World& world) {
   for (std::size_t k = 0; k < p.substance.size(); ++k) {
     const coupling::SubstanceState& field = world.state.substance[k];
     const auto [low, high] = std::ranges::minmax(field.concentration);
-    list[p.substance[k].name] = {
-        {"unit", p.substance[k].unit},
-        {"lowest", finite_number(low)},
-        {"highest", finite_number(high)},
-        {"amount_um3", finite_number(substances::total_amount(p.grid, field.concentration))},
-        {"secreted_um3", finite_number(field.secreted)},
-        {"through_faces_um3", finite_number(field.entered)},
-        {"from_sources_um3", finite_number(field.supplied)},
-        {"decayed_um3", finite_number(field.decayed)}};
+    list[p.substance[k].name] = {{"unit", p.substance[k].unit},
+                                 {"lowest", finite_number(low)},
+                                 {"highest", finite_number(high)},
+                                 {"amount_um3", finite_number(coupling::amount_of(p, field))},
+                                 {"secreted_um3", finite_number(field.secreted)},
+                                 {"through_faces_um3", finite_number(field.entered)},
+                                 {"from_sources_um3", finite_number(field.supplied)},
+                                 {"decayed_um3", finite_number(field.decayed)}};
   }
   return list;
 }

@@ -210,7 +210,7 @@ TEST(Substances, VesselsFeedAlongTheirWalls) {
   substances::Medium m;
   m.gain.assign(g.n_voxel(), 0.0);
   m.loss.assign(g.n_voxel(), 0.0);
-  add_vessel_feed(g, vessel, 2, 7, m);
+  add_vessel_feed(g, vessel, 2, 7, m.gain, m.loss);
   double gain = 0, loss = 0;
   for (std::size_t v = 0; v < g.n_voxel(); ++v) {
     gain += m.gain[v] * g.voxel_volume();
