@@ -6,6 +6,7 @@
 #include "cli/command.hpp"
 #include "runs/assemble/shipped_laws.hpp"
 #include "runs/experiments/experiment.hpp"
+#include "runs/physicell/convert_rules.hpp"
 #include "runs/scene/choices.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 #include "runs/session/shell_quote.hpp"
@@ -42,6 +43,37 @@ int copy(const std::string& name, const std::string& folder) {
   return 0;
 }
 
+/// Prints what became of each rule.
+int convert(const std::string& table, const std::string& folder,
+            const std::vector<std::string>& base) {
+  const runs::ConvertedRules result =
+      runs::write_physicell_scene(table, folder, runs::parse_base_values(base));
+  for (const runs::RuleRemark& r : result.remark)
+    fmt::print("{}:{}: {}{}\n", table, r.line, r.converted ? "" : "left out: ", r.text);
+  fmt::print(
+      "{} of {} rules converted\nwrote {}\nput in your cells and substances, then: acinus run {}\n",
+      result.n_converted, result.remark.size(), result.scene, runs::quote_for_shell(result.scene));
+  return 0;
+}
+
+struct NewArguments {
+  std::string scene, folder, table;
+  std::vector<std::string> base;
+};
+
+int make(const NewArguments& a) {
+  if (!a.table.empty()) {
+    check(!a.scene.empty() && a.folder.empty(),
+          "--from-physicell-rules takes one folder and no scene: acinus new "
+          "--from-physicell-rules rules.csv my_cells");
+    return convert(a.table, a.scene, a.base);
+  }
+  check(!a.folder.empty(),
+        "acinus new needs the name of a scene and a folder: acinus new two_cells "
+        "my_cells");
+  return copy(a.scene, a.folder);
+}
+
 }  // namespace
 
 Command add_list(CLI::App& app) {
@@ -51,12 +83,27 @@ Command add_list(CLI::App& app) {
 }
 
 Command add_new(CLI::App& app) {
-  CLI::App* command = add_command(app, "new", "copy a shipped scene into a folder to change it",
-                                  "acinus new two_cells my_cells");
-  const auto name = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
-  command->add_option("SCENE", *name, "name of a shipped scene")->required();
-  command->add_option("DIR", *folder, "folder, made if needed")->required();
-  return {command, [name, folder] { return copy(*name, *folder); }};
+  CLI::App* command = add_command(
+      app, "new", "copy a shipped scene into a folder to change it, or make one from rules",
+      "acinus new two_cells my_cells\n"
+      "         acinus new --from-physicell-rules rules.csv my_cells");
+  const auto arguments = std::make_shared<NewArguments>();
+  NewArguments& a = *arguments;
+  command->add_option("SCENE", a.scene, "name of a shipped scene");
+  command->add_option("DIR", a.folder, "folder, made if needed");
+  CLI::Option* table = command
+                           ->add_option("--from-physicell-rules", a.table,
+                                        "make a scene from a table of PhysiCell's cell rules, "
+                                        "and say what became of each; then without SCENE")
+                           ->type_name("FILE");
+  command
+      ->add_option("--base", a.base,
+                   "value of a behaviour without signals, in 1/min or um/min, which tables of "
+                   "version 3 have not, e.g. --base \"necrosis=0.0028\"; may be repeated")
+      ->type_name("[TYPE:]BEHAVIOUR=VALUE")
+      ->allow_extra_args(false)
+      ->needs(table);
+  return {command, [arguments] { return make(*arguments); }};
 }
 
 }  // namespace acinus::cli

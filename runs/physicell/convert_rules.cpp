@@ -1,0 +1,333 @@
+#include "runs/physicell/convert_rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/spelling.hpp"
+#include "io/disk.hpp"
+#include "runs/scene/key_reader.hpp"
+
+namespace acinus::runs {
+namespace {
+
+namespace fs = std::filesystem;
+using OrderedJson = nlohmann::ordered_json;
+
+/// Signal or behaviour of PhysiCell without counterpart: its name or the start of it, and what
+/// there is instead.
+struct NoCounterpart {
+  const char* name;
+  const char* instead;
+};
+constexpr NoCounterpart kSignals[] = {
+    {"pressure", "growth slows with pressure by cell_types.<name>.inhibition, in Pa"},
+    {"volume", "growth slows with volume by cell_types.<name>.inhibition"},
+    {"damage", "cells have no damage"},
+    {"damage delivered", "cells have no damage"},
+    {"total damage delivered", "cells have no damage"},
+    {"attacking", "cells do not attack"},
+    {"is attacking", "cells do not attack"},
+    {"total attack time", "cells do not attack"},
+    {"dead", "dead cells follow cell_types.<name>.death"},
+    {"is dead", "dead cells follow cell_types.<name>.death"},
+    {"apoptotic", "dead cells follow cell_types.<name>.death"},
+    {"is_apoptotic", "dead cells follow cell_types.<name>.death"},
+    {"necrotic", "dead cells follow cell_types.<name>.death"},
+    {"is_necrotic", "dead cells follow cell_types.<name>.death"},
+    {"time", "a course over time belongs to a substance or to the proliferation of a type"},
+    {"current time", "a course over time belongs to a substance"},
+    {"global time", "a course over time belongs to a substance"}};
+constexpr NoCounterpart kSignalStarts[] = {{"contact with ", "a signal here is a substance"},
+                                           {"intracellular ", "there is no chemistry inside cells"},
+                                           {"custom:", "there are no custom signals"},
+                                           {"custom ", "there are no custom signals"}};
+constexpr NoCounterpart kBehaviours[] = {
+    {"chemotactic", "rules.behaviour = chemotaxis takes a force in nN, which the table has not"},
+    {"migration bias", "rules.behaviour = chemotaxis takes a force in nN"},
+    {"migration persistence", "random motion is that of cell.diffusion, without persistence"},
+    {"exit from cycle phase", "the cycle has one phase"},
+    {"transform", "cell types are fixed"},
+    {"transition", "cell types are fixed"},
+    {"phagocytos", "cells do not eat others"},
+    {"attack", "cells do not attack"},
+    {"damage", "cells have no damage"},
+    {"immunogenicity", "cells do not attack"},
+    {"fuse", "cells do not fuse"},
+    {"cell-", "adhesion and stiffness are constants of a type"},
+    {"adhesive affinity", "adhesion is a constant of a type"},
+    {"relative maximum adhesion", "adhesion is a constant of a type"},
+    {"cell attachment", "there are no springs between cells"},
+    {"cell detachment", "there are no springs between cells"},
+    {"maximum number of cell attachments", "there are no springs between cells"},
+    {"is_movable", "all cells move"},
+    {"is movable", "all cells move"},
+    {"movable", "all cells move"},
+    {"asymmetric division", "a daughter has the type of its mother"},
+    {"custom", "there are no custom behaviours"}};
+
+/// Signals that are not substances: those of the list, or names that begin with a kind of signal.
+const char* find_signal(const std::string& name) {
+  for (const NoCounterpart& n : kSignals)
+    if (name == n.name) return n.instead;
+  for (const NoCounterpart& n : kSignalStarts)
+    if (name.starts_with(n.name)) return n.instead;
+  return nullptr;
+}
+
+const char* find_behaviour(const std::string& name) {
+  for (const NoCounterpart& n : kBehaviours)
+    if (name.starts_with(n.name)) return n.instead;
+  return nullptr;
+}
+
+/// A name that a scene takes: other characters become _.
+std::string name_of(std::string text) {
+  for (char& c : text)
+    if (!is_name(std::string(1, c))) c = '_';
+  return text;
+}
+
+std::string in_words(const PhysiCellRule& r) {
+  return fmt::format("{}: {} {} {}", r.cell_type, r.signal, r.decreases ? "decreases" : "increases",
+                     r.behaviour);
+}
+
+std::string per_minute(double rate) { return fmt::format("{:.9g} 1/min", rate); }
+
+/// Scene under construction.
+struct Draft {
+  OrderedJson types = OrderedJson::object(), rules = OrderedJson::array();
+  std::vector<std::string> substances;            ///< as in the table, in order of use
+  std::map<std::string, std::vector<int>> lines;  ///< converted, by cell type and behaviour
+
+  void add_rule(const PhysiCellRule& r, const char* behaviour, double rate = 0) {
+    OrderedJson rule = {{"signal", name_of(r.signal)}, {"behaviour", behaviour}};
+    if (r.decreases) rule["direction"] = "decreases";
+    rule["cell_type"] = name_of(r.cell_type);
+    rule["half_max"] = r.half_max;
+    rule["power"] = r.power;
+    if (rate > 0) rule["rate"] = per_minute(rate);
+    rules.push_back(rule);
+    if (std::ranges::find(substances, r.signal) == substances.end()) substances.push_back(r.signal);
+  }
+  OrderedJson& type(const PhysiCellRule& r) { return types[name_of(r.cell_type)]; }
+};
+
+/// RuleOutcome of a rule: a note if it was converted, the reason if it was not.
+struct RuleOutcome {
+  bool converted;
+  std::string text;
+};
+RuleOutcome left(const std::string& why) { return {false, why}; }
+
+/// Range of a behaviour's value that a response between 0 and 1 gives: one end must be 0.
+std::optional<RuleOutcome> refuse_range(const PhysiCellRule& r, std::optional<double> base) {
+  if (r.decreases && r.extreme > 0)
+    return left(fmt::format("falls to {:.4g}, not to 0: a response here falls to 0", r.extreme));
+  if (!r.decreases && base.value_or(0) > 0)
+    return left(fmt::format("rises from {:.4g}, not from 0: a response here rises from 0", *base));
+  if (!r.decreases && !(r.extreme > 0)) return left("rises to 0, so it does nothing");
+  return {};
+}
+
+const char* assumed_base(const PhysiCellRule& r, std::optional<double> base) {
+  return r.decreases || base ? "" : "; base value taken as 0, not in the table";
+}
+
+RuleOutcome convert_growth(const PhysiCellRule& r, std::optional<double> base, Draft& draft) {
+  if (const auto refused = refuse_range(r, base)) return *refused;
+  draft.add_rule(r, "growth");
+  const double rate = r.decreases ? base.value_or(0) : r.extreme;
+  OrderedJson& cycle = draft.type(r)["cycle"];
+  std::string note = "growth";
+  if (rate > 0 && !cycle.contains("time")) {
+    cycle["time"] = fmt::format("{:.6g} min", 1 / rate);
+    note += fmt::format(", cycle.time = 1 / rate = {:.4g} h", 1 / rate / 60);
+  }
+  return {true, note + assumed_base(r, base)};
+}
+
+RuleOutcome convert_death(const PhysiCellRule& r, std::optional<double> base, Draft& draft) {
+  if (r.decreases && !base)
+    return left(
+        fmt::format("the rate without the signal is not in the table: give it in 1/min, "
+                    "as --base \"{}:{}=0.001\"",
+                    r.cell_type, r.behaviour));
+  if (const auto refused = refuse_range(r, base)) return *refused;
+  const double rate = r.decreases ? *base : r.extreme;
+  if (!(rate > 0)) return left("base value 0, so it does nothing");
+  draft.add_rule(r, "death", rate);
+  return {true, fmt::format("death at {}{}", per_minute(rate), assumed_base(r, base))};
+}
+
+RuleOutcome convert_speed(const PhysiCellRule& r, std::optional<double> base, Draft& draft) {
+  if (const auto refused = refuse_range(r, base)) return *refused;
+  draft.add_rule(r, "motility");
+  draft.add_rule(r, "motility");
+  return {true, fmt::format("motility, twice, since diffusion goes with the square of speed; set "
+                            "cell_types.{}.diffusion to speed^2 x persistence time / 3{}",
+                            name_of(r.cell_type), assumed_base(r, base))};
+}
+
+RuleOutcome convert(const PhysiCellRule& r, std::optional<double> base, Draft& draft) {
+  if (r.signal.ends_with(" gradient"))
+    return left("signal: rules.behaviour = chemotaxis follows gradients");
+  if (const char* instead = find_signal(r.signal)) return left(fmt::format("signal: {}", instead));
+  if (r.behaviour == "cycle entry" || r.behaviour == "exit from cycle phase 0")
+    return convert_growth(r, base, draft);
+  if (r.behaviour == "apoptosis" || r.behaviour == "necrosis") return convert_death(r, base, draft);
+  if (r.behaviour == "migration speed") return convert_speed(r, base, draft);
+  for (const char* ending :
+       {" secretion", " uptake", " export", " secretion target", " secretion saturation density"})
+    if (r.behaviour.ends_with(ending))
+      return left("behaviour: rates of cell_types.<name>.exchange do not depend on signals");
+  if (const char* instead = find_behaviour(r.behaviour))
+    return left(fmt::format("behaviour: {}", instead));
+  return left("behaviour: unknown. Known: cycle entry, apoptosis, necrosis, migration speed");
+}
+
+std::optional<double> base_of(const PhysiCellRule& r, const BaseValues& base) {
+  for (const std::string& key : {r.cell_type + ":" + r.behaviour, r.behaviour})
+    if (const auto found = base.find(key); found != base.end()) return found->second;
+  return r.base;
+}
+
+OrderedJson make_substance(const std::string& signal) {
+  const bool oxygen = signal == "oxygen";
+  OrderedJson s = {{"name", name_of(signal)},
+                   {"unit", oxygen ? "mmHg" : "1"},
+                   {"diffusion", "100000 um^2/min"},
+                   {"initial", oxygen ? 38 : 0}};
+  if (oxygen) s["boundary"] = {{"kind", "fixed"}, {"value", 38}};
+  return s;
+}
+
+std::string scene_text(const Draft& draft, const std::string& name, const std::string& source,
+                       const std::vector<RuleRemark>& remarks) {
+  OrderedJson scene = {{"name", name_of(name)},
+                       {"description", "rules of PhysiCell in " + source},
+                       {"model", "cbm"},
+                       {"time", {{"end", "24 h"}, {"step", "300 s"}}}};
+  OrderedJson types = draft.types, shares = OrderedJson::array();
+  for (auto& [type, block] : types.items()) {
+    block["radius"] = "8.413 um";
+    if (block.contains("cycle")) {
+      if (!block["cycle"].contains("time")) block["cycle"]["time"] = "24 h";
+      block["cycle"]["start"] = "random";
+    }
+    shares.push_back({{"type", type}});
+  }
+  scene["cell_types"] = types;
+  scene["cells"] = {{"source", "clump"}, {"count", 200}};
+  if (shares.size() > 1) scene["cells"]["types"] = shares;
+  if (!draft.substances.empty()) scene["substances"] = OrderedJson::array();
+  for (const std::string& s : draft.substances) scene["substances"].push_back(make_substance(s));
+  if (!draft.rules.empty()) scene["rules"] = draft.rules;
+  std::string comments =
+      "// Made from a table of rules, which has no cells, substances or constants: number, radius "
+      "and cycle of the\n// cells, and diffusion, concentrations and boundary of the substances "
+      "are PhysiCell's defaults. Put in yours.\n";
+  for (const RuleRemark& r : remarks)
+    comments += fmt::format("// line {}, {}{}\n", r.line, r.converted ? "" : "left out: ", r.text);
+  return comments + scene.dump(2) + "\n";
+}
+
+/// Notes where several signals act on one behaviour, which the programs join in different ways.
+void note_joint_rules(const Draft& draft, std::vector<RuleRemark>& remarks) {
+  for (const auto& [what, lines] : draft.lines) {
+    if (lines.size() < 2) continue;
+    for (RuleRemark& r : remarks)
+      if (r.line == lines.back())
+        r.text += fmt::format(
+            "; {} rules act on this behaviour: PhysiCell joins them in one "
+            "response, here growth and motility multiply and rates of death add",
+            lines.size());
+  }
+}
+
+void check_base_names(const std::vector<PhysiCellRule>& rules, const BaseValues& base) {
+  std::vector<std::string> known;
+  for (const PhysiCellRule& r : rules) {
+    known.push_back(r.behaviour);
+    known.push_back(r.cell_type + ":" + r.behaviour);
+  }
+  for (const auto& [name, value] : base)
+    check(std::ranges::find(known, name) != known.end(),
+          fmt::format("--base {}: the table has no such behaviour. {}", name,
+                      did_you_mean(nearest_name(name, known),
+                                   "Write BEHAVIOUR=VALUE or CELL TYPE:BEHAVIOUR=VALUE.")));
+}
+
+}  // namespace
+
+ConvertedRules convert_physicell_rules(const std::vector<PhysiCellRule>& rules,
+                                       const BaseValues& base, const std::string& name,
+                                       const std::string& source) {
+  check_base_names(rules, base);
+  ConvertedRules result;
+  Draft draft;
+  std::map<std::string, std::string> names;
+  for (const PhysiCellRule& r : rules) {
+    const auto [known, fresh] = names.emplace(name_of(r.cell_type), r.cell_type);
+    check(fresh || known->second == r.cell_type,
+          fmt::format("{}:{}: the cell types \"{}\" and \"{}\" would both be named {}. Rename one.",
+                      source, r.line, known->second, r.cell_type, known->first));
+    draft.type(r);
+    const RuleOutcome outcome = convert(r, base_of(r, base), draft);
+    if (outcome.converted) draft.lines[r.cell_type + "/" + r.behaviour].push_back(r.line);
+    result.remark.push_back(
+        {r.line, outcome.converted,
+         fmt::format("{}: {}{}", in_words(r), outcome.text,
+                     outcome.converted && r.dead ? "; dead cells do not respond here" : "")});
+    result.n_converted += outcome.converted ? 1 : 0;
+  }
+  for (auto& [type, block] : draft.types.items())
+    if (block.is_null()) block = OrderedJson::object();
+  note_joint_rules(draft, result.remark);
+  result.scene = scene_text(draft, name, source, result.remark);
+  return result;
+}
+
+BaseValues parse_base_values(const std::vector<std::string>& texts) {
+  BaseValues base;
+  for (const std::string& text : texts) {
+    const std::size_t equal = text.rfind('=');
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const auto read = equal == std::string::npos
+                          ? std::from_chars_result{end, std::errc::invalid_argument}
+                          : std::from_chars(text.data() + equal + 1, end, value);
+    check(read.ec == std::errc() && read.ptr == end && value >= 0,
+          fmt::format("--base \"{}\": must be BEHAVIOUR=VALUE or CELL TYPE:BEHAVIOUR=VALUE, the "
+                      "value a number >= 0 in 1/min or um/min.",
+                      text));
+    base[text.substr(0, equal)] = value;
+  }
+  return base;
+}
+
+ConvertedRules write_physicell_scene(const std::string& table, const std::string& folder,
+                                     const BaseValues& base) {
+  const fs::path source(table);
+  const std::vector<PhysiCellRule> rules = parse_physicell_rules(io::read_text_file(table), table);
+  ConvertedRules result =
+      convert_physicell_rules(rules, base, source.stem().string(), source.filename().string());
+  const fs::path file = fs::path(folder) / (name_of(source.stem().string()) + ".json");
+  check(!fs::exists(file), file.string() + ": exists already. Give another folder.",
+        Exit::kFileError);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) io::fail_on_disk(folder, "be made", error.value());
+  io::write_text_file(file.string(), result.scene);
+  result.scene = file.string();
+  return result;
+}
+
+}  // namespace acinus::runs
