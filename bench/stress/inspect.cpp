@@ -249,6 +249,7 @@ void Inspection::inspect_places() {
   for (const auto& [id, r] : pedigree_.all()) {
     size += 2 * sphere_radius(pedigree_.rest_volume(r, time()).high);
     force += scene_.motility.leader_force + origin.at(r.founder).pull;
+    for (const coupling::SignalRule& rule : scene_.rules) force += std::abs(rule.force);
   }
   for (const auto& [name, type] : scene_.cell_types)
     if (scene_.motility.random) diffusion = std::max(diffusion, type.diffusion);

@@ -80,6 +80,10 @@ Interval Pedigree::rest_volume(const Relative& r, double time) const {
 }
 
 bool Pedigree::may_die(std::int64_t id, const Relative& r, double time) const {
+  for (const coupling::SignalRule& rule : params_.substances.rule)
+    if (rule.behaviour == coupling::Behaviour::kDeath &&
+        (rule.type < 0 || rule.type == static_cast<int>(r.type)))
+      return true;
   return std::ranges::any_of(params_.life.rule, [&](const coupling::LifeRule& rule) {
     const double slack = kRelativeTolerance * (1 + time);
     if (!rule.die || time < rule.from - slack || time > rule.until + slack) return false;

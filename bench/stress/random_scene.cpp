@@ -8,6 +8,7 @@
 
 #include "bench/stress/random_law.hpp"
 #include "bench/stress/random_life.hpp"
+#include "bench/stress/random_substance.hpp"
 #include "bench/stress/random_zoom.hpp"
 #include "core/numbers/random.hpp"
 #include "coupling/generate/packing.hpp"
@@ -382,16 +383,14 @@ RandomScene Drawing::draw(const SceneKind& kind) {
   if (law == kTriangleLaw) scene_["contact"] = {{"law", law}, {"quadrature", "3-point"}};
   if (kind.life) add_moving_zoom();
   if (kind.life) add_life();
+  scene_.merge_patch(Json::parse(
+      draw_substances({seed_, wide_, kind.life, end_, radius_, scene_.contains("vessels")})));
   result_.cells = count_;
   result_.text = scene_.dump(2) + "\n";
   return result_;
 }
 
 }  // namespace
-
-const char* name_of(Family family) { return family == Family::kWide ? "wide" : "nominal"; }
-
-Family family_of(std::uint64_t seed) { return seed % 2 == 1 ? Family::kNominal : Family::kWide; }
 
 RandomScene draw_scene(std::uint64_t seed, const SceneKind& kind) {
   return Drawing(seed).draw(kind);

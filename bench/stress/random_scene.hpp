@@ -11,10 +11,12 @@ namespace acinus::bench {
 /// ten times smaller or larger, adhesion up to 1e-3 J/m^2, steps of 1 to 1800 s also without
 /// control, overlapping starts.
 enum class Family { kNominal, kWide };
-const char* name_of(Family family);
+inline const char* name_of(Family family) { return family == Family::kWide ? "wide" : "nominal"; }
 
 /// Family of a seed: odd seeds are nominal, even ones wide.
-Family family_of(std::uint64_t seed);
+inline Family family_of(std::uint64_t seed) {
+  return seed % 2 == 1 ? Family::kNominal : Family::kWide;
+}
 
 /// Files of a random scene.
 struct RandomScene {
@@ -24,7 +26,8 @@ struct RandomScene {
 };
 inline constexpr const char* kNetworkFile = "vessels.swc";
 
-/// Kind of the random scenes of a set.
+/// Kind of the random scenes of a set. Of all of them two in five have substances
+/// (random_substance.hpp).
 struct SceneKind {
   /// Cells also grow, divide, die and rest (random_life.hpp) and may change their model
   /// (random_zoom.hpp).

@@ -46,6 +46,19 @@ bool names(const std::vector<io::Event>& events, const Finding& f) {
   });
 }
 
+/// Substance with a concentration below 0, or with a number that is not finite; empty if none.
+std::string wrong_substance(const Json& summary) {
+  if (!summary.contains("substances")) return "";
+  for (const auto& [name, figures] : summary["substances"].items()) {
+    for (const auto& [figure, value] : figures.items())
+      if (figure != "unit" && !value.is_number())
+        return fmt::format("{} of {} is not finite", figure, name);
+    if (figures["lowest"].get<double>() < 0)
+      return fmt::format("{} has a concentration of {}", name, figures["lowest"].dump());
+  }
+  return "";
+}
+
 /// Folder of all scenes; a temporary one is removed at the end.
 class Workplace {
  public:
@@ -172,6 +185,8 @@ RunVerdict RandomRun::inspect() {
   const auto text = [&](const Finding& f) {
     return fmt::format("{} at {:.4g} s: {}", name_of(f.defect), f.time_s, f.what);
   };
+  if (const std::string wrong = wrong_substance(s); !wrong.empty())
+    return settle(TrialOutcome::kNotFinite, wrong);
   for (const Finding& f : found)
     if (f.defect == Defect::kNotFinite) return settle(TrialOutcome::kNotFinite, text(f));
   for (const Finding& f : found)
