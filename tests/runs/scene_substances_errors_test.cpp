@@ -29,7 +29,7 @@ TEST(SceneSubstances, KeysAreRead) {
   const Scene scene =
       parse_scene(scene_with_substances(
                       R"("substances": [{"name": "drug", "unit": "uM", "diffusion": "1e-10 m^2/s",
-        "decay": "0.36 1/h", "initial": 2,
+        "decay": "0.36 1/h", "initial": 2, "cells": "keep_out",
         "boundary": {"kind": "exchange", "value": 3, "coefficient": "2 um/s"},
         "faces": [{"side": "z_high", "kind": "no_flux"}]}],
         "substance_grid": {"spacing": "5 um", "step": "1 min"},
@@ -41,6 +41,8 @@ TEST(SceneSubstances, KeysAreRead) {
   EXPECT_DOUBLE_EQ(drug.decay, 1e-4);
   EXPECT_EQ(drug.boundary.kind, substances::FaceKind::kExchange);
   EXPECT_EQ(drug.faces.at(0).side, BoxFace::kZHigh);
+  EXPECT_TRUE(drug.outside_cells);
+  EXPECT_FALSE(drug.outside_obstacles);
   EXPECT_EQ(scene.substance_grid.step, 60);
   EXPECT_DOUBLE_EQ(scene.rules.at(0).rate, 1e-3);
   EXPECT_EQ(scene.cell_types.at("a").exchange.at(0).uptake, 0.5);
