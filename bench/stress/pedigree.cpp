@@ -165,8 +165,13 @@ std::vector<Finding> Pedigree::add(const io::Event& e) {
 
 std::vector<Finding> Pedigree::find_overdue(double time) const {
   std::vector<Finding> late;
-  const bool may_rest = std::ranges::any_of(
-      params_.life.rule, [](const coupling::LifeRule& rule) { return !rule.die; });
+  // Substances that slow growth leave no latest time of division.
+  const bool may_rest =
+      std::ranges::any_of(params_.life.rule,
+                          [](const coupling::LifeRule& rule) { return !rule.die; }) ||
+      std::ranges::any_of(params_.substances.rule, [](const coupling::SignalRule& rule) {
+        return rule.behaviour == coupling::Behaviour::kGrowth;
+      });
   for (const auto& [id, r] : all_) {
     if (std::isfinite(r.end)) continue;
     const coupling::CycleParams& life = life_of(r);

@@ -46,14 +46,16 @@ bool names(const std::vector<io::Event>& events, const Finding& f) {
   });
 }
 
-/// Substance with a concentration below 0, or with a number that is not finite; empty if none.
-std::string wrong_substance(const Json& summary) {
+/// Substance with a concentration below 0 by more than the fields' solver may leave, or with a
+/// number that is not finite; empty if none.
+/// @param tolerance  of the solver, taken relative to the largest concentration
+std::string wrong_substance(const Json& summary, double tolerance) {
   if (!summary.contains("substances")) return "";
   for (const auto& [name, figures] : summary["substances"].items()) {
     for (const auto& [figure, value] : figures.items())
       if (figure != "unit" && !value.is_number())
         return fmt::format("{} of {} is not finite", figure, name);
-    if (figures["lowest"].get<double>() < 0)
+    if (figures["lowest"].get<double>() < -tolerance * figures["highest"].get<double>())
       return fmt::format("{} has a concentration of {}", name, figures["lowest"].dump());
   }
   return "";
@@ -185,7 +187,7 @@ RunVerdict RandomRun::inspect() {
   const auto text = [&](const Finding& f) {
     return fmt::format("{} at {:.4g} s: {}", name_of(f.defect), f.time_s, f.what);
   };
-  if (const std::string wrong = wrong_substance(s); !wrong.empty())
+  if (const std::string wrong = wrong_substance(s, scene.substance_grid.tolerance); !wrong.empty())
     return settle(TrialOutcome::kNotFinite, wrong);
   for (const Finding& f : found)
     if (f.defect == Defect::kNotFinite) return settle(TrialOutcome::kNotFinite, text(f));
