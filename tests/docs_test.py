@@ -299,7 +299,8 @@ class Page:
             return
         if command == "bench" and positional[0] not in facts.benches:
             yield f"acinus bench {positional[0]}: no such benchmark"
-        if command in ("run", "check", "new", "calibrate", "study"):
+        makes_scene = command == "new" and "--from-physicell-rules" in words  # then the word is a folder
+        if command in ("run", "check", "new", "calibrate", "study") and not makes_scene:
             yield from self.check_shipped(positional[0], "study" if command == "study" else "scene")
         if command == "explain" and positional[0] != "study" and not facts.is_key(positional[0].split(".")):
             yield f"acinus explain {positional[0]}: no such key"
