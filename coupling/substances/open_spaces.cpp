@@ -56,9 +56,8 @@ class NearSegments {
   std::array<int, 3> voxel_at(const Vec3& x) const {
     std::array<int, 3> at{};
     for (int axis = 0; axis < 3; ++axis)
-      at[axis] = static_cast<int>(
-          std::clamp(std::floor((x[axis] - grid_.low[axis]) / grid_.spacing[axis]), 0.0,
-                     grid_.n[axis] - 1.0));
+      at[axis] = static_cast<int>(std::clamp(
+          std::floor((x[axis] - grid_.low[axis]) / grid_.spacing[axis]), 0.0, grid_.n[axis] - 1.0));
     return at;
   }
   const substances::VoxelGrid& grid_;
