@@ -112,8 +112,15 @@ void add_reading(CLI::App& command, ImportArguments& a) {
                   "which channel or time holds the labels, from 0")
       ->type_name("N")
       ->check(CLI::Range(0, 100000));
-  command.add_option("--dataset", a.import.read.dataset, "where in an HDF5 file the labels are")
+  command
+      .add_option("--dataset", a.import.read.dataset,
+                  "where in an HDF5 file or a folder of OME-Zarr the labels are")
       ->type_name("PATH");
+  command
+      .add_option("--level", a.import.read.level,
+                  "which resolution of OME-Zarr, from 0, the finest (default: 0)")
+      ->type_name("N")
+      ->check(CLI::Range(0, 100));
   command
       .add_option("--background", a.import.background,
                   "the label that is background besides 0; 0: no other is (default: one that "
@@ -134,7 +141,7 @@ Command add_import(CLI::App& app) {
   command
       ->add_option("IMAGE", a.import.image,
                    "label image, one number a cell: .tif (OME, ImageJ), .nii, .nii.gz, .mha, .mhd, "
-                   ".nrrd, .nhdr, .h5")
+                   ".nrrd, .nhdr, .h5, a folder of OME-Zarr")
       ->required();
   command->add_option("--out", a.out, "folder to make: scene.json, cells.vtk, cells.csv")
       ->type_name("FOLDER")

@@ -33,6 +33,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # For those who build against the library, all that cmake/acinus-config.cmake looks for and the link line names:
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, pkgconf, libeigen3-dev, libfmt-dev, libgmp-dev, libhdf5-dev, libmpfr-dev, libopenmpi-dev, libtrilinos-zoltan-dev, libxxhash-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, pkgconf, libblosc-dev, libeigen3-dev, libfmt-dev, libgmp-dev, libhdf5-dev, libmpfr-dev, libopenmpi-dev, libtrilinos-zoltan-dev, libxxhash-dev, libzstd-dev, nlohmann-json3-dev")
 set(CPACK_STRIP_FILES ON)
 include(CPack)

@@ -47,6 +47,14 @@ ImageFile read_nrrd(const std::string& path);
 ImageFile read_hdf5(const std::string& path, const std::string& dataset,
                     const ChannelChoice& channel);
 
+/// Choice of an image in a folder of OME-Zarr.
+struct ZarrChoice {
+  std::string dataset;      ///< name of the label image, or a path in the folder; "": the only one
+  std::int64_t level = -1;  ///< resolution, from 0, the finest; -1: not given
+};
+ImageFile read_zarr(const std::string& path, const ZarrChoice& choice,
+                    const ChannelChoice& channel);
+
 /// Adds notes to `file` where the axes of an image in space, the columns of `axes`, are not at
 /// right angles, or make a mirror image: neither is corrected.
 void note_axes(const Eigen::Matrix3d& axes, const std::string& named, ImageFile& file);

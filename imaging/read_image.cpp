@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -19,16 +20,23 @@ namespace {
 bool ends_with(std::string_view text, std::string_view end) { return text.ends_with(end); }
 
 ImageFile read_file(const std::string& path, const ReadImage& how) {
+  const ChannelChoice channel{how.channel, how.second};
+  if (std::filesystem::is_directory(path))
+    return read_zarr(path, {how.dataset, how.level}, channel);
+  check(
+      how.level < 0 || how.second,
+      fmt::format("{}: --level chooses a resolution of OME-Zarr, which this is not. Leave it out.",
+                  path));
   const std::string name = geometry::lower_case(path);
   const auto is = [&](std::initializer_list<const char*> endings) {
     return std::ranges::any_of(endings, [&](const char* e) { return ends_with(name, e); });
   };
-  const ChannelChoice channel{how.channel, how.second};
   if (is({".h5", ".hdf5"})) return read_hdf5(path, how.dataset, channel);
-  check(how.dataset.empty() || how.second,
-        fmt::format("{}: --dataset names one of several images in an HDF5 file (.h5), which this "
-                    "is not. Leave it out.",
-                    path));
+  check(
+      how.dataset.empty() || how.second,
+      fmt::format("{}: --dataset names one of several images in an HDF5 file (.h5) or a folder of "
+                  "OME-Zarr, which this is not. Leave it out.",
+                  path));
   if (is({".tif", ".tiff"})) return read_tiff(path, channel);
   if (is({".nii", ".nii.gz", ".hdr"})) return read_nifti(path, channel);
   const bool meta = is({".mha", ".mhd"});
@@ -37,9 +45,12 @@ ImageFile read_file(const std::string& path, const ReadImage& how) {
     return meta ? read_metaimage(path) : read_nrrd(path);
   }
   throw Error(
-      fmt::format("{}: images are read from .tif, .nii, .nii.gz, .mha, .mhd, .nrrd, .nhdr and .h5, "
-                  "not {}. Save it as one of these.",
-                  path, geometry::in_quotes(geometry::extension_of(path))));
+      fmt::format("{}: images are read from .tif, .nii, .nii.gz, .mha, .mhd, .nrrd, .nhdr, .h5 and "
+                  "folders of OME-Zarr, not {}. {}",
+                  path, geometry::in_quotes(geometry::extension_of(path)),
+                  is({".zip", ".ozx"}) ? "Unpack it: a folder of OME-Zarr is read."
+                  : is({".zarr"})      ? "There is no such folder."
+                                       : "Save it as one of these."));
 }
 
 constexpr const char* kGiveVoxel = "--voxel \"0.5 um, 0.5 um, 1 um\" (x, y, z)";

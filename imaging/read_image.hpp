@@ -10,18 +10,20 @@
 namespace acinus::imaging {
 
 struct ReadImage {
-  std::string dataset{};      ///< HDF5: path in the file; "" = the only one
+  std::string dataset{};      ///< HDF5, OME-Zarr: path in the file; "" = the only one
+  std::int64_t level = -1;    ///< OME-Zarr: resolution, from 0, the finest; -1: not given
   std::int64_t channel = -1;  ///< from 0, where there are several
   /// Sides of a voxel, um; they override the file.
   std::optional<Vec3> voxel{};
   double unit = 0;  ///< um in a unit of the file's sizes, overrides the file; 0 = not given
-  /// Second image, read with the choices made for a first: dataset and channel count only where the
-  /// file has several.
+  /// Second image, read with the choices made for a first: dataset, channel and level count only
+  /// where the file has several.
   bool second = false;
 };
 
 /// Reads TIFF stacks (.tif, .tiff; voxel sizes of OME or ImageJ), NIfTI (.nii, .nii.gz, .hdr),
-/// MetaImage (.mha, .mhd), NRRD (.nrrd, .nhdr) and HDF5 (.h5, .hdf5; attribute element_size_um).
+/// MetaImage (.mha, .mhd), NRRD (.nrrd, .nhdr), HDF5 (.h5, .hdf5; attribute element_size_um) and
+/// folders of OME-Zarr.
 /// Each statement of the file (docs/howto/images.md lists them) is followed, or `notes` gets a
 /// line. Throws Error with the path and place where something is wrong, not supported,
 /// contradictory or missing; and at a choice in `how` that has no effect.

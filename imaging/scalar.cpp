@@ -75,17 +75,15 @@ std::size_t count_bad(std::span<const std::byte> bytes, bool swap) {
   return n;
 }
 
-/// Throws Error at a voxel that is not a label. @param rest  of the voxels that were read together,
-/// from the first such value on
+/// Throws Error at a voxel that is not a label. @param more  other such voxels that were seen
 template <class T>
-[[noreturn]] void fail_at_voxel(const std::string& path, std::span<const std::byte> rest, bool swap,
-                                std::size_t at, const Voxel& size) {
+[[noreturn]] void fail_at_voxel(const std::string& path, T value, std::size_t more, std::size_t at,
+                                const Voxel& size) {
   const std::size_t x = at % size[0], row = at / size[0], y = row % size[1], z = row / size[1];
-  const std::size_t more = count_bad<T>(rest, swap) - 1;
   throw Error(fmt::format(
       "{}: voxel ({}, {}, {}) holds {}{}; labels are whole numbers from 0, the background, to {}. "
       "Give the segmentation, not the picture it was made from.",
-      path, x, y, z, +value_at<T>(rest, 0, swap),
+      path, x, y, z, +value,
       more > 0 ? fmt::format(", and at least {} more are none either", more) : "", kMostLabel));
 }
 
@@ -111,13 +109,35 @@ void append_labels(const std::string& path, std::span<const std::byte> bytes, Sc
     using T = decltype(t);
     for (std::size_t at = 0; at + sizeof(T) <= bytes.size(); at += sizeof(T)) {
       const T value = value_at<T>(bytes, at, swap);
-      if (!is_label(value)) fail_at_voxel<T>(path, bytes.subspan(at), swap, out.size(), size);
+      if (!is_label(value))
+        fail_at_voxel(path, value, count_bad<T>(bytes.subspan(at), swap) - 1, out.size(), size);
       out.push_back(static_cast<Label>(value));
     }
   });
 }
 
-std::size_t count_voxels(const std::string& path, const std::array<std::int64_t, 3>& size) {
+void place_labels(const std::string& place, const LabelBlock& block, Scalar type, bool swap,
+                  const Voxel& size, std::span<Label> out) {
+  with_type(type, [&](auto t) {
+    using T = decltype(t);
+    for (int z = 0; z < block.size[2]; ++z)
+      for (int y = 0; y < block.size[1]; ++y) {
+        const std::size_t row =
+            (static_cast<std::size_t>(block.first[2] + z) * size[1] + block.first[1] + y) *
+                size[0] +
+            block.first[0];
+        std::size_t at = block.start + z * block.stride[2] + y * block.stride[1];
+        for (int x = 0; x < block.size[0]; ++x, at += block.stride[0]) {
+          const T value = value_at<T>(block.bytes, at, swap);
+          if (!is_label(value)) fail_at_voxel(place, value, 0, row + x, size);
+          out[row + x] = static_cast<Label>(value);
+        }
+      }
+  });
+}
+
+std::size_t count_voxels(const std::string& path, const std::array<std::int64_t, 3>& size,
+                         double beside) {
   constexpr std::int64_t kMostSide = 1 << 20;
   constexpr double kMostVoxels = 8589934592.0;
   const bool fits =
@@ -126,13 +146,13 @@ std::size_t count_voxels(const std::string& path, const std::array<std::int64_t,
   check(fits, fmt::format("{}: an image of {} x {} x {} voxels; each side must be from 1 to {}, "
                           "and all at most 2^33. Crop the image, or make its voxels larger.",
                           path, size[0], size[1], size[2], kMostSide));
-  constexpr double kBytes = sizeof(Label) + 2 * sizeof(std::uint64_t);  // as read, and labels
+  const double bytes = sizeof(Label) + beside;
   const double voxels = 1.0 * size[0] * size[1] * size[2], memory = machine_memory();
-  check(kBytes * voxels <= memory,
+  check(bytes * voxels <= memory,
         fmt::format(
             "{}: an image of {} x {} x {} voxels may take {:.3g} GB; this machine has {:.3g}. "
             "Crop the image, or make its voxels larger.",
-            path, size[0], size[1], size[2], 1e-9 * kBytes * voxels, 1e-9 * memory));
+            path, size[0], size[1], size[2], 1e-9 * bytes * voxels, 1e-9 * memory));
   return size[0] * size[1] * size[2];
 }
 

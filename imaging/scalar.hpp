@@ -26,7 +26,25 @@ std::uint64_t most_of(Scalar type);
 void append_labels(const std::string& path, std::span<const std::byte> bytes, Scalar type,
                    bool swap, const Voxel& size, std::vector<Label>& out);
 
-/// Number of voxels. Throws Error unless all sides are from 1 to 2^20 and there are at most 2^33.
-std::size_t count_voxels(const std::string& path, const std::array<std::int64_t, 3>& size);
+/// Box of an image, in bytes of which the numbers stand at any distance.
+struct LabelBlock {
+  std::span<const std::byte> bytes;
+  std::size_t start = 0;                ///< bytes before its first number
+  std::array<std::size_t, 3> stride{};  ///< bytes between neighbours along x, y, z
+  Voxel first{}, size{};                ///< its first voxel in the image, its voxels
+};
+
+/// Copies a box into the labels of an image.
+/// @param size  of the image
+/// Throws Error, with `place` and the voxel, at a number that is not a whole one from 0 to 2^32
+/// - 1.
+void place_labels(const std::string& place, const LabelBlock& block, Scalar type, bool swap,
+                  const Voxel& size, std::span<Label> out);
+
+/// Number of voxels. Throws Error unless all sides are from 1 to 2^20, there are at most 2^33, and
+/// this machine has memory for their labels.
+/// @param beside  bytes a voxel that a reader holds beside the labels
+std::size_t count_voxels(const std::string& path, const std::array<std::int64_t, 3>& size,
+                         double beside = 2 * sizeof(std::uint64_t));
 
 }  // namespace acinus::imaging

@@ -26,7 +26,7 @@ ROOMS = {
 }
 MIRRORS = ("tests",)  # may include every floor; no floor includes them
 JSON_FOLDERS = ("bench", "cli", "service", "runs", "calibration") + MIRRORS
-JSON_FILES = ("imaging/json_statements.cpp",)  # other programs write the axes of their images so
+JSON_FILES = ("imaging/json_statements.cpp", "imaging/zarr_json.cpp")  # other programs describe their images so
 MAX_LINES = 400
 MAX_TEST_LINES = 500
 MAX_README_LINES = 40

@@ -20,7 +20,7 @@ seconds=$1
 shift
 targets=("$@")
 [[ ${#targets[@]} -gt 0 ]] || targets=(
-  scene law network surface image_tiff image_nifti image_nrrd image_meta image_hdf5 checkpoint run_file study
+  scene law network surface image_tiff image_nifti image_nrrd image_meta image_hdf5 image_zarr checkpoint run_file study
   summary submission)
 cmake -G Ninja -B build-fuzz -DCMAKE_CXX_COMPILER=clang++-16 -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g" \
   -DACINUS_FUZZ=ON -DACINUS_SANITIZE=ON -DACINUS_BENCH=OFF -DACINUS_PRECOMPILE=ON >/dev/null

@@ -22,6 +22,7 @@
 #include "service/serve/submission.hpp"
 #include "tests/imaging/hdf5_dataset.hpp"
 #include "tests/imaging/images.hpp"
+#include "tests/imaging/zarr_folder.hpp"
 #include "tests/io/sample.hpp"
 #include "tests/paths.hpp"
 
@@ -130,6 +131,25 @@ void write_hdf5_image(const std::string& folder) {
                                                 .step = {1, 0.5, 0.5},
                                                 .chunk = {2, 5, 6}});
 }
+const imaging::ZarrForm kShards{.chunk = {4, 4, 8}, .inner = {2, 2, 4}, .codec = "blosc"};
+const std::string kShardFile = "/0/c/0/0/0";
+
+/// Reads bytes as the metadata of an array, or else as a shard, within a folder of OME-Zarr.
+void read_zarr_part(const std::string& path) {
+  const std::string folder = path + ".zarr";
+  imaging::write_zarr(folder, make_labels(), kShards);
+  const bool metadata = std::ifstream(path).peek() == '{';
+  fs::copy_file(path, folder + (metadata ? "/0/zarr.json" : kShardFile),
+                fs::copy_options::overwrite_existing);
+  read_image(folder);
+}
+void write_zarr_parts(const std::string& folder) {
+  const std::string whole = folder + "/whole.zarr";
+  imaging::write_zarr(whole, make_labels(), kShards);
+  fs::copy_file(whole + "/0/zarr.json", folder + "/array.json");
+  fs::copy_file(whole + kShardFile, folder + "/shard.json");
+  fs::remove_all(whole);
+}
 void write_vtk(const std::string& folder) { copy_all(test::data_path("files"), ".vtk", folder); }
 
 io::CheckpointData make_state() {
@@ -225,6 +245,7 @@ const std::vector<Target>& all_targets() {
       {"image_nrrd", {".nrrd"}, read_image, write_nrrd},
       {"image_meta", {".mha"}, read_image, write_metaimage},
       {"image_hdf5", {".h5"}, read_image, write_hdf5_image, true},
+      {"image_zarr", {".json"}, read_zarr_part, write_zarr_parts, true},
       {"checkpoint", {".h5"}, read_checkpoint, write_checkpoints, true},
       {"run_file", {".vtkhdf"}, read_run_file, write_run_files, true},
       {"study", {".json"}, read_study, write_studies},

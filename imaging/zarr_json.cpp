@@ -1,0 +1,146 @@
+#include "imaging/zarr_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/json_size.hpp"
+#include "geometry/readers/input_file.hpp"
+
+namespace acinus::imaging {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string shown(const Json& json) {
+  constexpr std::size_t kMost = 60;
+  if (json.is_array() && json.size() > kMost) return fmt::format("a list of {}", json.size());
+  if (json.is_object()) return fmt::format("an object of {} names", json.size());
+  const std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
+  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
+}
+
+/// Copies a value. The depth is bounded by fault_of_json_size.
+JsonValue value_of(const Json& json) {
+  using Kind = JsonKind;
+  JsonValue v;
+  v.text = shown(json);
+  if (json.is_boolean()) {
+    v.kind = Kind::kBoolean;
+    v.boolean = json.get<bool>();
+  } else if (json.is_number()) {
+    v.kind = Kind::kNumber;
+    v.number = json.get<double>();
+  } else if (json.is_string()) {
+    v.kind = Kind::kText;
+    v.text = json.get<std::string>();
+  } else if (json.is_array()) {
+    v.kind = Kind::kList;
+    for (const Json& item : json) v.item.push_back(value_of(item));
+  } else if (json.is_object()) {
+    v.kind = Kind::kObject;
+    for (const auto& [name, member] : json.items()) v.member.emplace_back(name, value_of(member));
+  }
+  return v;
+}
+
+}  // namespace
+
+JsonFile JsonFile::read(const std::string& path) {
+  constexpr JsonBounds kBounds{.depth = 40, .names = 4096, .values = 1'000'000, .bytes = 1 << 26};
+  const geometry::InputFile file(path);
+  const std::string text(file.bytes());
+  const std::string fault = fault_of_json_size(text, kBounds);
+  check(fault.empty(), fmt::format("{}: {}. The metadata are damaged, or too large to be those of "
+                                   "an image.",
+                                   path, fault));
+  std::string reason;
+  Json json(Json::value_t::discarded);
+  try {
+    json = Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    reason = fmt::format("no JSON from byte {} on", error.byte);
+  } catch (const Json::exception&) {
+    reason = "a number beyond all bounds";
+  }
+  check(reason.empty() && json.is_object(),
+        fmt::format("{}: {}. The metadata of zarr are a JSON object: the file is truncated or "
+                    "damaged; copy or write the image again.",
+                    path, reason.empty() ? "holds " + shown(json) : reason));
+  return {path, value_of(json)};
+}
+
+const JsonValue* JsonPart::find(const std::string& name) const {
+  for (const auto& [n, v] : value_->member)
+    if (n == name) return &v;
+  return nullptr;
+}
+
+std::vector<std::string> JsonPart::names() const {
+  std::vector<std::string> all;
+  for (const auto& m : value_->member) all.push_back(m.first);
+  return all;
+}
+
+JsonPart JsonPart::at(const std::string& name) const {
+  if (!is(Kind::kObject)) fail(fmt::format("an object with \"{}\" is needed", name));
+  const JsonValue* found = find(name);
+  check(found != nullptr,
+        fmt::format("{}: {}/{} is missing. Write the image again.", *path_, pointer_, name));
+  return {*path_, *found, pointer_ + "/" + name};
+}
+
+std::vector<JsonPart> JsonPart::items() const {
+  if (!is(Kind::kList)) fail("a list is needed");
+  std::vector<JsonPart> all;
+  for (const JsonValue& v : value_->item)
+    all.emplace_back(*path_, v, fmt::format("{}/{}", pointer_, all.size()));
+  return all;
+}
+
+std::string JsonPart::text() const {
+  if (!is(Kind::kText)) fail("a text is needed");
+  return value_->text;
+}
+
+double JsonPart::number() const {
+  if (!is(Kind::kNumber)) fail("a number is needed");
+  return value_->number;
+}
+
+bool JsonPart::boolean() const {
+  if (!is(Kind::kBoolean)) fail("true or false is needed");
+  return value_->boolean;
+}
+
+std::vector<double> JsonPart::numbers() const {
+  std::vector<double> all;
+  for (const JsonPart& p : items()) all.push_back(p.number());
+  return all;
+}
+
+std::vector<std::int64_t> JsonPart::counts(std::int64_t least) const {
+  constexpr double kMost = 1e15;
+  std::vector<std::int64_t> all;
+  for (const JsonPart& p : items()) {
+    const double n = p.number();
+    if (!(n >= static_cast<double>(least) && n <= kMost && n == std::floor(n)))
+      p.fail(fmt::format("a whole number from {} on is needed", least));
+    all.push_back(static_cast<std::int64_t>(n));
+  }
+  return all;
+}
+
+std::string JsonPart::where() const {
+  return fmt::format("{}: {} = {}", *path_, pointer_.empty() ? "/" : pointer_,
+                     is(Kind::kText) ? geometry::in_quotes(value_->text) : value_->text);
+}
+
+void JsonPart::fail(const std::string& rule) const {
+  throw Error(fmt::format("{}: {}.", where(), rule));
+}
+
+}  // namespace acinus::imaging
