@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "core/error.hpp"
@@ -39,10 +40,12 @@ void check_uneven(const LabelImage& image, std::vector<std::string>& warnings) {
 }
 
 /// Moves the vessels from the image of the cells into an image of their own, with label 1.
-LabelImage take_vessels(const ImportOptions& o, LabelImage& cells,
-                        std::vector<std::string>& warnings) {
-  LabelImage vessels = cells;
-  std::ranges::fill(vessels.label, 0);
+/// @return nothing if the options name no vessels
+std::optional<LabelImage> take_vessels(const ImportOptions& o, LabelImage& cells,
+                                       std::vector<std::string>& warnings) {
+  if (o.vessels.empty() && o.vessel_label == 0) return std::nullopt;
+  LabelImage vessels{cells.size, cells.voxel, std::vector<Label>(cells.label.size(), 0),
+                     cells.most_label};
   if (!o.vessels.empty()) {
     ReadImage read = o.read;
     read.voxel = cells.voxel;
@@ -67,7 +70,7 @@ LabelImage take_vessels(const ImportOptions& o, LabelImage& cells,
   if (both > 0)
     warnings.push_back(
         fmt::format("{} voxels belong to a cell and to a vessel: vessels have them", both));
-  check(any > 0 || (o.vessels.empty() && o.vessel_label == 0),
+  check(any > 0,
         fmt::format("{}: no voxel is {}.", o.vessels.empty() ? o.image : o.vessels,
                     o.vessels.empty() ? fmt::format("labelled {}", o.vessel_label) : "not 0"));
   return vessels;
@@ -246,20 +249,22 @@ void add_cells(const ImportOptions& o, const LabelImage& image, const std::vecto
   }
 }
 
-/// Counts the neighbours of every cell in the image and marks the cells that touch vessels.
-void add_neighbours(const LabelImage& image, const LabelImage& vessels, ImportedTissue& tissue) {
+/// Counts the neighbours of every cell in the image and marks the cells that touch vessels. Vessels
+/// are entered into the image, with a label of their own.
+void add_neighbours(LabelImage& image, const std::optional<LabelImage>& vessels,
+                    ImportedTissue& tissue) {
   constexpr int kLeastFaces = 4;  // of voxels: fewer are chance
   const Label vessel = [&] {
     Label most = 0;
     for (const ImportedCell& c : tissue.cell) most = std::max(most, c.label);
     return most + 1;
   }();
-  LabelImage both = image;
-  for (std::size_t k = 0; k < both.label.size(); ++k)
-    if (vessels.label[k] != 0) both.label[k] = vessel;
+  if (vessels)
+    for (std::size_t k = 0; k < image.label.size(); ++k)
+      if (vessels->label[k] != 0) image.label[k] = vessel;
   std::map<Label, ImportedCell*> by_label;
   for (ImportedCell& c : tissue.cell) by_label[c.label] = &c;
-  for (const auto& [a, b] : find_touching(both, kLeastFaces)) {
+  for (const auto& [a, b] : find_touching(image, kLeastFaces)) {
     const auto p = by_label.find(a), q = by_label.find(b);
     if (p == by_label.end()) continue;
     if (b == vessel) p->second->at_vessel = true;
@@ -270,9 +275,8 @@ void add_neighbours(const LabelImage& image, const LabelImage& vessels, Imported
   }
 }
 
-void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTissue& tissue) {
-  Pieces pieces = find_pieces(vessels);
-  LabelImage numbered = vessels;
+void add_vessels(const ImportOptions& o, LabelImage numbered, ImportedTissue& tissue) {
+  const Pieces pieces = find_pieces(numbered);
   constexpr std::size_t kLeastVoxels = 27;
   constexpr double kVesselSmoothing = 1.5, kVesselEdge = 1.5;
   for (const PieceRow& row : pieces.row)
@@ -316,7 +320,7 @@ ImportedTissue import_image(const ImportOptions& o) {
   tissue.size = image.size;
   tissue.voxel = image.voxel;
   check_uneven(image, tissue.warnings);
-  const LabelImage vessels = take_vessels(o, image, tissue.warnings);
+  std::optional<LabelImage> vessels = take_vessels(o, image, tissue.warnings);
   const std::vector<Piece> pieces = Sorting(o, image, tissue).run();
   add_cells(o, image, pieces, tissue);
   std::ranges::stable_sort(tissue.left_out, [](const LeftOut& a, const LeftOut& b) {
@@ -324,7 +328,7 @@ ImportedTissue import_image(const ImportOptions& o) {
   });
   if (tissue.cell.empty()) fail_empty(o, tissue.left_out);
   add_neighbours(image, vessels, tissue);
-  add_vessels(o, vessels, tissue);
+  if (vessels) add_vessels(o, std::move(*vessels), tissue);
   return tissue;
 }
 
