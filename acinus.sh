@@ -15,7 +15,7 @@ usage: ./acinus.sh COMMAND [ARGUMENT...]
   help                      this text
   anything else             build the program and hand all arguments to it, in the folder you are
                             in: run, check, schema, explain, list, new, mesh, import, voxelise, calibrate, compare,
-                            report, study, serve, openvt, bench (`./acinus.sh --help` says more)
+                            report, study, infer, serve, openvt, bench (`./acinus.sh --help` says more)
 
 Missing packages of packages.txt are installed by apt-get, as root or through sudo.
 Environment: ACINUS_JOBS               compile jobs (default: number of processors)

@@ -98,6 +98,7 @@ int run_cli(int argc, const char* const* argv) {
                               add_compare(app, command_line),
                               add_report(app),
                               add_study(app),
+                              add_infer(app),
                               add_serve(app),
                               add_openvt(app, command_line),
                               add_bench(app)};

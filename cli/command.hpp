@@ -99,6 +99,7 @@ Command add_run(CLI::App& app, const std::string& command_line);
 Command add_serve(CLI::App& app);
 Command add_schema(CLI::App& app);
 Command add_study(CLI::App& app);
+Command add_infer(CLI::App& app);
 Command add_voxelise(CLI::App& app);
 
 }  // namespace acinus::cli

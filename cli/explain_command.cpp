@@ -1,9 +1,11 @@
-/// Commands `acinus explain` and `acinus schema`: keys of scenes and studies, observables.
+/// Commands `acinus explain` and `acinus schema`: keys of scenes, studies and inferences,
+/// observables.
 
 #include <memory>
 
 #include "cli/command.hpp"
 #include "runs/experiments/explain_observables.hpp"
+#include "runs/infer/inference_registry.hpp"
 #include "runs/scene/entries.hpp"
 #include "runs/scene/explain.hpp"
 #include "runs/scene/schema.hpp"
@@ -26,10 +28,12 @@ int explain(const std::string& key, bool markdown) {
     fmt::print("{}", measured);
     return 0;
   }
-  const bool study = key == "study" || key.starts_with("study.");
-  const std::vector<runs::Entry>& entries = study ? runs::study_entries() : runs::all_entries();
-  fmt::print("{}", key.empty() || key == "study" ? runs::explain_all(entries)
-                                                 : runs::explain_key(key, entries));
+  const std::string block = key.substr(0, key.find('.'));
+  const std::vector<runs::Entry>& entries = block == "study"       ? runs::study_entries()
+                                            : block == "inference" ? runs::inference_entries()
+                                                                   : runs::all_entries();
+  const bool all = key.empty() || key == "study" || key == "inference";
+  fmt::print("{}", all ? runs::explain_all(entries) : runs::explain_key(key, entries));
   return 0;
 }
 
@@ -43,7 +47,8 @@ Command add_explain(CLI::App& app) {
   const auto markdown = std::make_shared<bool>(false), observables = std::make_shared<bool>(false);
   CLI::Option* option = command->add_option(
       "KEY", *key,
-      "path or last name of a key, study.KEY of studies, or the name of an observable");
+      "path or last name of a key, study.KEY or inference.KEY of such files, or the name of an "
+      "observable");
   command->add_flag("--observables", *observables, "list what runs measure in place of keys")
       ->excludes(option);
   command->add_flag("--markdown", *markdown, "all of them as a Markdown page")->excludes(option);
@@ -56,9 +61,13 @@ Command add_schema(CLI::App& app) {
   CLI::App* command = add_command(app, "schema", "print the JSON Schema of scenes",
                                   "acinus schema > scene.schema.json");
   const auto study = std::make_shared<bool>(false);
-  command->add_flag("--study", *study, "of studies instead");
-  return {command, [study] {
-            fmt::print("{}", *study ? runs::study_schema() : runs::scene_schema());
+  const auto inference = std::make_shared<bool>(false);
+  CLI::Option* of_study = command->add_flag("--study", *study, "of studies instead");
+  command->add_flag("--inference", *inference, "of inferences instead")->excludes(of_study);
+  return {command, [study, inference] {
+            fmt::print("{}", *study       ? runs::study_schema()
+                             : *inference ? runs::inference_schema()
+                                          : runs::scene_schema());
             return 0;
           }};
 }

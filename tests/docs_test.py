@@ -95,9 +95,9 @@ class Facts:
             self.kinds["test"] = {test["name"] for test in tests}
             self.kinds["label"] = {label for test in tests for p in test.get("properties", ()) if p["name"] == "LABELS" for label in p["value"]}
             self.ask_commands(program)
-            for more in ((), ("--study",)):
+            for more in ((), ("--study",), ("--inference",)):
                 self.keys |= set(walk_schema(json.loads(call(program, "schema", *more))))
-            paths = {tuple(line.split()[0].split(".")) for more in ((), ("study",)) for line in call(program, "explain", *more).splitlines()}
+            paths = {tuple(line.split()[0].split(".")) for more in ((), ("study",), ("inference",)) for line in call(program, "explain", *more).splitlines()}
             paths |= {tuple(word for word in key if word != "*") for key in self.keys}
             self.ends = {path[k:] for path in paths for k in range(len(path))}
             self.blocks = {word for path in paths for word in path[:-1]}
@@ -302,7 +302,7 @@ class Page:
         makes_scene = command == "new" and "--from-physicell-rules" in words  # then the word is a folder
         if command in ("run", "check", "new", "calibrate", "study") and not makes_scene:
             yield from self.check_shipped(positional[0], "study" if command == "study" else "scene")
-        if command == "explain" and positional[0] != "study" and not facts.is_key(positional[0].split(".")):
+        if command == "explain" and positional[0] not in ("study", "inference") and not facts.is_key(positional[0].split(".")):
             yield f"acinus explain {positional[0]}: no such key"
 
     def check_shipped(self, name, kind):
@@ -310,7 +310,7 @@ class Page:
             yield f"{name}: no such {kind} ships"
 
     def check_examples(self):
-        """Blocks of code that are scenes or studies."""
+        """Blocks of code that are scenes, studies or inferences."""
         block, start = [], 0
         for number, line, code in list(split_page(self.text)) + [(0, "", False)]:
             if code:

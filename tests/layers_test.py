@@ -20,7 +20,7 @@ ROOMS = {
     "geometry": ("", "readers", "implicit"),
     "dcm": ("", "terms", "contact", "shape", "loads"),
     "coupling": ("generate", "vessels", "apparatus", "interface", "world", "substances", "migration", "step", "measure", "subworld", "sleep", "zoom", "life", ""),
-    "runs": ("scene", "assemble", "experiments", "images", "physicell", "session", "calibrate", "compare", "study", "openvt", ""),
+    "runs": ("scene", "assemble", "experiments", "images", "physicell", "session", "calibrate", "compare", "study", "infer", "openvt", ""),
     "service": ("page", "report", "serve"),
     "bench": ("output", "step", "tissue", "stress", "work_precision", "kernels", ""),
 }

@@ -40,6 +40,7 @@ enum class Purpose : std::uint32_t {
   kSharing = 12,
   kImage = 13,
   kSignalDeath = 14,
+  kInference = 15,
 };
 
 /// Address of one block of random words.

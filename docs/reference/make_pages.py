@@ -20,11 +20,11 @@ EXIT_CODES = {  # code -> meaning, commands that return it
     1: ("internal error: a fault of the program, please report it", "all"),
     2: ("the scene, a file given on the command line, or the command line is wrong", "all"),
     3: ("the simulation could not continue. The last good state is saved, the message says what to change. "
-        "Of a study: some run failed", "`run`, `calibrate`, `compare --scene`, `study`, `openvt`"),
+        "Of a study: some run failed", "`run`, `calibrate`, `compare --scene`, `study`, `infer`, `openvt`"),
     4: ("a file could not be read or written, or the disk is full", "all"),
     5: ("runs differ by more than a tolerance allows, or a quantity was not measured", "`compare`"),
     75: ("stopped by a signal or a limit. A run that had begun has written a checkpoint; the same command goes on "
-         "(`run` and `openvt` with `--resume`)", "`run`, `calibrate`, `compare --scene`, `study`, `openvt`; `check --max-walltime`"),
+         "(`run` and `openvt` with `--resume`)", "`run`, `calibrate`, `compare --scene`, `study`, `infer`, `openvt`; `check --max-walltime`"),
 }
 
 SIGNALS = [  # all of them, as tests/cli/ends_test.py sends them: docs/howto/stopping.md
@@ -39,7 +39,7 @@ SIGNALS = [  # all of them, as tests/cli/ends_test.py sends them: docs/howto/sto
 MORE = {  # command -> page
     "run": "../howto/restart.md", "explain": "scene_keys.md", "mesh": "../howto/images.md", "import": "../howto/images.md",
     "voxelise": "../howto/images.md", "calibrate": "../science/calibration.md", "compare": "../howto/compare.md",
-    "report": "../howto/report.md", "study": "../howto/study.md", "serve": "../howto/service.md",
+    "report": "../howto/report.md", "study": "../howto/study.md", "infer": "../howto/inference.md", "serve": "../howto/service.md",
     "openvt": "../howto/exchange.md", "bench": "../developers/profiling.md",
 }
 

@@ -67,7 +67,7 @@ std::vector<const Entry*> find_entries(const std::string& query,
     return find_entries(joined(rest), entries);
   }
   // study.measure.kind: the end of study.expectations.<number>.measure.kind.
-  if (wanted.size() > 1 && wanted[0] == "study")
+  if (wanted.size() > 1 && (wanted[0] == "study" || wanted[0] == "inference"))
     return find_entries(joined({wanted.begin() + 1, wanted.end()}), entries);
   return {};
 }
@@ -148,10 +148,12 @@ std::string explain_key(const std::string& query, const std::vector<Entry>& entr
     std::string hint = nearest_name(wanted, names);
     const std::vector<std::string> parts = parts_of(query);
     if (hint.empty() && !parts.empty()) hint = nearest_name(parts.back(), last_parts);
-    const bool study = query.starts_with("study.");
-    const std::string all = fmt::format("`acinus explain{}` lists all", study ? " study" : "");
-    throw Error(fmt::format("no {} key \"{}\". {}", study ? "study" : "scene", query,
-                            did_you_mean_and(hint, all)));
+    const std::string kind = query.starts_with("study.")       ? "study"
+                             : query.starts_with("inference.") ? "inference"
+                                                               : "scene";
+    const std::string all =
+        fmt::format("`acinus explain{}` lists all", kind == "scene" ? "" : " " + kind);
+    throw Error(fmt::format("no {} key \"{}\". {}", kind, query, did_you_mean_and(hint, all)));
   }
   std::string text;
   for (const Entry* entry : found) text += (text.empty() ? "" : "\n") + described(*entry, entries);
