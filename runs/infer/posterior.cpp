@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/disk.hpp"
 #include "runs/infer/posterior_plots.hpp"
@@ -101,11 +102,23 @@ std::string write_posterior(const InferencePlan& plan, const ParticleRuns& runs,
   }
   std::size_t failed = 0;
   for (const auto& [key, run] : runs.runs()) failed += run.value.empty() ? 1 : 0;
+  double nearest = last.particle.front().distance;
+  for (const Particle& p : last.particle) nearest = std::min(nearest, p.distance);
+  const std::string within = std::isfinite(last.tolerance)
+                                 ? fmt::format("up to {:.4g}", last.tolerance)
+                                 : std::string("of any size");
+  constexpr double kFew = 5;
+  const double independent = effective_size(last);
+  const std::string advice =
+      independent >= kFew ? ""
+      : plan.inference.method == InferenceMethod::kScan
+          ? " Few points of the grid carry the weight: narrow the bounds or raise steps."
+          : " Few particles carry the weight: raise particles.";
   const std::string summary = fmt::format(
-      "{}\n{} of {} simulations failed. End: {}. The last population accepts distances up to "
-      "{:.4g} standard errors; {} particles, as good as {:.0f} independent ones.\n",
-      parameter_lines(plan, last), failed, runs.runs().size(), sampled.end, last.tolerance,
-      last.particle.size(), effective_size(last));
+      "{}\n{} of {} simulations failed. End: {}. The nearest has a distance of {:.3g} standard "
+      "errors; {} particles at distances {}, as good as {:.0f} independent ones.{}\n",
+      parameter_lines(plan, last), failed, runs.runs().size(), sampled.end, nearest,
+      last.particle.size(), within, independent, advice);
   io::write_text_file(root + "/report.md",
                       fmt::format("# {}\n\n{}\n{}\n{}", plan.inference.name, summary,
                                   prediction_lines(runs, sampled), pictures));
