@@ -1,9 +1,7 @@
 #include "coupling/subworld/settle.hpp"
 
 #include <algorithm>
-#include <utility>
 
-#include "coupling/step/workspace_size.hpp"
 #include "coupling/subworld/subworld.hpp"
 #include "geometry/measures.hpp"
 
@@ -36,27 +34,29 @@ void set_newton_steps(double step, Subworld& sub) {
   sub.world.state.clock.step = step;
 }
 
-CellSet find_cells(const State& s, const std::vector<std::int64_t>& lineages) {
-  CellSet found;
-  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
-    if (std::ranges::find(lineages, s.dcm.lineage[l]) != lineages.end()) found.dcm.push_back(l);
-  return found;
-}
+}  // namespace
 
-/// Steps a subworld and writes its moving cells back.
-Settled settle(Subworld& sub, double duration, World& world) {
+Settled settle_cells(World& world, const std::vector<std::int64_t>& cells, double newton_step) {
+  const State& s = world.state;
+  CellSet fresh;
+  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
+    if (std::ranges::find(cells, s.dcm.lineage[l]) != cells.end()) fresh.dcm.push_back(l);
+  Subworld sub;
+  extract_at_rest(world, fresh, find_neighbours(world, fresh, kSettleReach), sub);
+  if (newton_step > 0) set_newton_steps(newton_step, sub);
+  const double duration = newton_step > 0 ? kNewtonSteps * newton_step
+                                          : std::min(kLongest, world.params.numerics.max_step);
   const Settling settling = relax(sub, duration);
   Settled result{settling.ok, settling.cause, settling.steps, {}, {}};
   if (!settling.ok) return result;
 
-  const State& s = world.state;
-  const std::vector<std::size_t>& moving = sub.moving.dcm;
-  std::vector<std::vector<Vec3>> before(moving.size());
-  for (std::size_t k = 0; k < moving.size(); ++k) dcm::copy_nodes(s.dcm, moving[k], before[k]);
+  std::vector<std::vector<Vec3>> before(fresh.dcm.size());
+  for (std::size_t k = 0; k < fresh.dcm.size(); ++k)
+    dcm::copy_nodes(s.dcm, fresh.dcm[k], before[k]);
   write_moved(sub, world.state);
   std::vector<Vec3> node;
-  for (std::size_t k = 0; k < moving.size(); ++k) {
-    const std::size_t lane = moving[k];
+  for (std::size_t k = 0; k < fresh.dcm.size(); ++k) {
+    const std::size_t lane = fresh.dcm[k];
     dcm::copy_nodes(s.dcm, lane, node);
     double& shift = result.shift[s.dcm.lineage[lane]];
     for (std::size_t i = 0; i < node.size(); ++i)
@@ -64,27 +64,6 @@ Settled settle(Subworld& sub, double duration, World& world) {
     result.pressure[s.dcm.lineage[lane]] = pressure_of(world, lane, node);
   }
   return result;
-}
-
-}  // namespace
-
-Settled settle_cells(World& world, const std::vector<std::int64_t>& cells) {
-  const CellSet fresh = find_cells(world.state, cells);
-  Subworld sub;
-  extract_at_rest(world, fresh, find_neighbours(world, fresh, kSettleReach), sub);
-  return settle(sub, std::min(kLongest, world.params.numerics.max_step), world);
-}
-
-Settled settle_shapes(World& world, std::vector<HeldCentroid> cells, double step) {
-  std::vector<std::int64_t> lineages;
-  for (const HeldCentroid& c : cells) lineages.push_back(c.cell);
-  const CellSet fresh = find_cells(world.state, lineages);
-  Subworld sub;
-  extract_at_rest(world, fresh, find_neighbours(world, fresh, kSettleReach), sub);
-  sub.world.params.apparatus.add(CenterHold(std::move(cells)));
-  size_workspace(sub.world, sub.work);
-  set_newton_steps(step, sub);
-  return settle(sub, kNewtonSteps * step, world);
 }
 
 }  // namespace acinus::coupling

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "coupling/subworld/center_hold.hpp"
 #include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
@@ -20,16 +19,11 @@ struct Settled {
 };
 
 /// Settles new deformable cells against each other and their fixed neighbours, so that the next
-/// step of the whole world has ordinary length: as many steps as the error allows, together a
-/// minute, or a step of the whole world if that is shorter. After a failure all cells keep their
-/// positions.
-/// @param cells  lineages
-Settled settle_cells(World& world, const std::vector<std::int64_t>& cells);
-
-/// Brings shapes of deformable cells to rest between their fixed neighbours while their centroids
-/// are held. After a failure all cells keep their positions.
-/// @param step  s, length of three steps, each one Newton iteration of backward Euler; a rejected
-///              one is halved
-Settled settle_shapes(World& world, std::vector<HeldCentroid> cells, double step);
+/// step of the whole world has ordinary length. After a failure all cells keep their positions.
+/// @param cells        lineages
+/// @param newton_step  s, length of three steps, each one Newton iteration of backward Euler; a
+///                     rejected one is halved. 0: as many steps as the error allows, together a
+///                     minute, or a step of the whole world if that is shorter
+Settled settle_cells(World& world, const std::vector<std::int64_t>& cells, double newton_step = 0);
 
 }  // namespace acinus::coupling

@@ -21,7 +21,6 @@
 #include "coupling/zoom/pair_forces.hpp"
 #include "coupling/zoom/promote.hpp"
 #include "coupling/zoom/regions.hpp"
-#include "geometry/measures.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -176,28 +175,11 @@ std::vector<std::int64_t> new_meshes(const State& s, const std::vector<Candidate
   return meshes;
 }
 
-/// Centroids of cells before a change of models.
-std::vector<HeldCentroid> centroids_of(const std::vector<std::int64_t>& cells, const State& old) {
-  std::vector<HeldCentroid> held;
-  std::vector<Vec3> node;
-  for_each_cell(old, [&](const Cell& c) {
-    const std::int64_t lineage = lineage_of(old, c);
-    if (std::ranges::find(cells, lineage) == cells.end()) return;
-    if (c.deformable) dcm::copy_nodes(old.dcm, c.at, node);
-    held.push_back({lineage, c.deformable
-                                 ? geometry::compute_centroid(
-                                       node, old.dcm.group[c.at / kLanes].topology->triangle)
-                                 : cbm::center_of(old.cbm, c.at)});
-  });
-  return held;
-}
-
-/// Brings the shapes of meshes to rest, each at the place where the cell was before the change.
-/// @return false if the process was asked to stop
-bool settle(World& world, const State& old, const std::vector<std::int64_t>& meshes,
+/// Settles meshes.   @return false if the process was asked to stop
+bool settle(World& world, const std::vector<std::int64_t>& meshes, double step,
             ZoomReport& report) {
   if (meshes.empty()) return true;
-  const Settled settled = settle_shapes(world, centroids_of(meshes, old), kSettlingStep);
+  const Settled settled = settle_cells(world, meshes, step);
   if (settled.ok) return true;
   if (stop_requested()) return false;
   for (const std::int64_t cell : meshes)
@@ -259,8 +241,8 @@ ZoomReport update_zoom(World& world, Workspace& work) {
   const PairForces before = compute_pair_forces(world, work, changing);
   State old = s;
   change_models(world, all, pressure, report);
-  if (!settle(world, old, neighbours_of(s, all.demote, before), report) ||
-      !settle(world, old, new_meshes(s, all.promote), report)) {
+  if (!settle(world, neighbours_of(s, all.demote, before), kSettlingStep, report) ||
+      !settle(world, new_meshes(s, all.promote), kSettlingStep, report)) {
     s = std::move(old);
     return {{}, true};
   }

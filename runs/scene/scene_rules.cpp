@@ -133,8 +133,7 @@ void check_types(const Scene& scene, Report& report) {
   if (cells.types.empty() && cells.source != CellSource::kList && scene.cell_types.size() > 1) {
     report.add_relation({"/cells/types", "/cells/source"}, "",
                         fmt::format("is empty, but there are {} cell types: {}. Say which cells of "
-                                    "source \"{}\" are of which, or take out a type that was "
-                                    "not meant (a name in --set adds one)",
+                                    "source \"{}\" are of which, or take one out",
                                     scene.cell_types.size(), fmt::join(type_names(scene), ", "),
                                     name_of_choice(cells.source)));
   }

@@ -199,10 +199,10 @@ TEST(SceneErrors, RulesOfLife) {
   };
   const std::string at = "scene.json:3:", type = "/cell_types/hepatocyte/";
   EXPECT_EQ(failure(cell(R"("cycle": {"time": "24 h", "mitosis": "20 h"})")),
-            at + "70 " + type + R"(cycle/mitosis = "20 h": must not exceed 16.8 h, the shortest )" +
-                R"(cycle of /time = "24 h" and /spread = 0.1: mitosis is part of the cycle)");
-  EXPECT_EQ(failure(cell(R"("cycle": {"mitosis": "20 h"})")), "")
-      << "no cycle, nothing to fit into";
+            at + "70 " + type + R"(cycle/mitosis = "20 h": must not exceed 16.8 h: mitosis is )" +
+                "part of the cycle, and the shortest cycle drawn is " + type +
+                R"(cycle/time = "24 h" minus three times )" + type + "cycle/spread = 0.1 of it");
+  EXPECT_EQ(failure(cell(R"("cycle": {"mitosis": "20 h"})")), "") << "nothing to fit into";
   EXPECT_EQ(failure(cell(R"("cycle": {"spread": 0.31})")),
             at + "53 " + type + "cycle/spread = 0.31: must be from 0 to 0.3");
   EXPECT_EQ(failure(cell(R"("cycle": {"axis": "given"})")),
@@ -341,7 +341,7 @@ TEST(SceneErrors, RulesBetweenKeys) {
        changed(minimal("\"hepatocyte\": {}", R"("a": {}, "b": {})"), "\"cells\": {",
                R"("cells": {"source": "clump", )"),
        R"(scene.json:4:23 /cells/types: is empty, but there are 2 cell types: a, b. Say which )"
-       R"(cells of source "clump" are of which)"},
+       R"(cells of source "clump" are of which, or take one out)"},
       {"types of a list",
        minimal("\"cells\": {", R"("cells": {"types": [{"type": "hepatocyte"}], )"),
        R"(scene.json:4:22 /cells/types = [{...}]: is for cells that are not listed: with )"
