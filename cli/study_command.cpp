@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "cli/command.hpp"
-#include "cli/wall_time.hpp"
+#include "cli/schedule_flags.hpp"
 #include "runs/study/run_study.hpp"
 
 namespace acinus::cli {
@@ -17,14 +17,7 @@ Command add_study(CLI::App& app) {
   command->add_option("FILE", o.file, "study file, or the name of a shipped study")->required();
   command->add_option("--out", o.out, "folder (default: <study name>.study in this folder)")
       ->type_name("DIR");
-  CLI::Option* jobs =
-      command->add_option("--jobs", o.jobs, "runs at once (default: cores over threads)")
-          ->type_name("N")
-          ->check(CLI::Range(1, 4096));
-  CLI::Option* threads =
-      command->add_option("--threads", o.child.threads, "threads of each run (default: 1)")
-          ->type_name("N")
-          ->check(CLI::Range(1, 4096));
+  const ScheduleFlags schedule = add_schedule_flags(*command, o.jobs, o.child, o.overwrite);
   CLI::Option* tasks =
       command->add_option("--tasks", o.choice.tasks, "for job arrays: split the runs in N parts")
           ->type_name("N")
@@ -40,24 +33,15 @@ Command add_study(CLI::App& app) {
                        "only this variant, NAME/* for what sweeps made of it; may be repeated")
           ->type_name("VARIANT")
           ->allow_extra_args(false);
-  CLI::Option* checkpoint =
-      command
-          ->add_option_function<std::string>(
-              "--checkpoint-every",
-              [&o](const std::string& text) { o.child.checkpoint_every_s = parse_wall_time(text); },
-              "wall time between checkpoints of a run (default: 2min)")
-          ->type_name("WALL");
   CLI::Option* dry = command->add_flag("--dry-run", o.dry_run,
                                        "list runs, their state and expected cost; run nothing");
-  CLI::Option* overwrite =
-      command->add_flag("--overwrite", o.overwrite,
-                        "run again what failed, or was made from another scene or version");
   CLI::Option* quiet = command->add_flag("--quiet", o.quiet, "warnings and errors only");
   CLI::Option* report =
       command->add_flag("--report", o.report_only, "report from what is there; run nothing");
-  for (CLI::Option* idle : {dry, jobs, threads, tasks, task, only, checkpoint, overwrite})
+  for (CLI::Option* idle : {dry, schedule.jobs, schedule.threads, tasks, task, only,
+                            schedule.checkpoint, schedule.overwrite})
     report->excludes(idle);
-  for (CLI::Option* idle : {checkpoint, overwrite, quiet}) dry->excludes(idle);
+  for (CLI::Option* idle : {schedule.checkpoint, schedule.overwrite, quiet}) dry->excludes(idle);
   return {command, [options] { return runs::run_study(*options); }};
 }
 

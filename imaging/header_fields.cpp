@@ -7,12 +7,7 @@
 
 namespace acinus::imaging {
 
-std::string trimmed(std::string_view text) {
-  constexpr const char* kSpace = " \t\r";
-  const std::size_t first = text.find_first_not_of(kSpace);
-  if (first == text.npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(kSpace) - first + 1));
-}
+using geometry::trimmed;
 
 void HeaderFields::add(std::string_view name, std::string_view value, std::size_t place) {
   const std::string key = geometry::lower_case(trimmed(name));

@@ -13,8 +13,6 @@
 
 namespace acinus::imaging {
 
-std::string trimmed(std::string_view text);
-
 /// Header fields by name in lower case, each with its place in the file for messages.
 class HeaderFields {
  public:

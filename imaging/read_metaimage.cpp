@@ -43,7 +43,7 @@ HeaderFields read_meta_header(geometry::InputFile& file) {
     const std::size_t equals = line.find('=');
     if (equals != line.npos)
       fields.add(line.substr(0, equals), line.substr(equals + 1), place);
-    else if (!trimmed(line).empty())
+    else if (!geometry::trimmed(line).empty())
       file.fail_at(place, "a line of the header without \"=\". Is this a MetaImage?");
   }
   check(fields.has(kData),

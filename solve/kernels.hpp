@@ -6,7 +6,8 @@
 
 namespace acinus::solve {
 
-/// Largest number of rank-one families in a system (volume and area use two).
+/// Largest number of rank-one families in a system: volume and area of cells and of nuclei use
+/// four, devices one each.
 inline constexpr std::size_t kMaxFamilies = 8;
 
 /// Arrays and coefficients of one block, as the kernels read them.

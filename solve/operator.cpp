@@ -194,6 +194,7 @@ void Operator::compute_inverse() {
 }
 
 void Operator::start(const System& system) {
+  ACINUS_ASSERT(system.rank_one.size() <= kMaxFamilies);
   system_ = &system;
   set_size(scratch_, system.n_row * kLanes);
   divide();

@@ -1,7 +1,9 @@
 #pragma once
 /// Regular grid of voxels in a box.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "core/box.hpp"
@@ -35,6 +37,18 @@ struct VoxelGrid {
                ny = static_cast<std::size_t>(n[1] + (axis == 1 ? 1 : 0));
     return (static_cast<std::size_t>(k) * ny + static_cast<std::size_t>(j)) * nx +
            static_cast<std::size_t>(i);
+  }
+  /// Number along an axis of the voxel at a coordinate; outside the box that of the nearest voxel.
+  int voxel_at(int axis, double x) const {
+    return static_cast<int>(
+        std::clamp(std::floor((x - low[axis]) / spacing[axis]), 0.0, n[axis] - 1.0));
+  }
+  std::array<int, 3> voxel_at(const Vec3& x) const {
+    return {voxel_at(0, x.x()), voxel_at(1, x.y()), voxel_at(2, x.z())};
+  }
+  std::size_t index_at(const Vec3& x) const {
+    const auto [i, j, k] = voxel_at(x);
+    return index(i, j, k);
   }
   double voxel_volume() const { return spacing.prod(); }
   Vec3 high() const { return low + spacing.cwiseProduct(Vec3(n[0], n[1], n[2])); }

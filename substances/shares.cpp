@@ -18,8 +18,8 @@ class Columns {
  public:
   Columns(const VoxelGrid& grid, const Box& body) : grid_(grid), bottom_(body.low.z()) {
     for (int axis = 0; axis < 3; ++axis) {
-      first_[axis] = voxel_at(axis, body.low[axis]);
-      count_[axis] = voxel_at(axis, body.high[axis]) - first_[axis] + 1;
+      first_[axis] = grid.voxel_at(axis, body.low[axis]);
+      count_[axis] = grid.voxel_at(axis, body.high[axis]) - first_[axis] + 1;
       const double across = body.high[axis] - body.low[axis];
       pitch_[axis] =
           grid.spacing[axis] /
@@ -53,7 +53,7 @@ class Columns {
 
   /// Adds sign times the column (x, y) from the bottom of the body up to z.
   void add(double x, double y, double z, double sign) {
-    const int i = voxel_at(0, x) - first_[0], j = voxel_at(1, y) - first_[1];
+    const int i = grid_.voxel_at(0, x) - first_[0], j = grid_.voxel_at(1, y) - first_[1];
     double* to = length_.data() + (static_cast<std::size_t>(j) * count_[0] + i) * count_[2];
     for (int k = 0; k < count_[2]; ++k) {
       const double floor = k == 0 ? bottom_ : grid_.low.z() + (first_[2] + k) * grid_.spacing.z();
@@ -67,10 +67,7 @@ class Columns {
   std::vector<VoxelShare> finish(double volume, const Vec3& center) const {
     double sum = 0;
     for (const double v : length_) sum += std::max(v, 0.0);
-    if (!(sum > 0))
-      return {
-          {grid_.index(voxel_at(0, center.x()), voxel_at(1, center.y()), voxel_at(2, center.z())),
-           volume}};
+    if (!(sum > 0)) return {{grid_.index_at(center), volume}};
     std::vector<VoxelShare> shares;
     for (int k = 0; k < count_[2]; ++k)
       for (int j = 0; j < count_[1]; ++j)
@@ -84,10 +81,6 @@ class Columns {
   }
 
  private:
-  int voxel_at(int axis, double x) const {
-    const double place = std::floor((x - grid_.low[axis]) / grid_.spacing[axis]);
-    return static_cast<int>(std::clamp(place, 0.0, grid_.n[axis] - 1.0));
-  }
   double floor_of(int k) const {
     return k >= count_[2] ? 1e300 : grid_.low.z() + (first_[2] + k) * grid_.spacing.z();
   }
@@ -110,14 +103,6 @@ double volume_inside(std::span<const Vec3> node, std::span<const std::array<int,
 
 /// Points of a surface, at most this far apart in voxels.
 constexpr double kPointsApart = 1.0 / 3;
-
-std::size_t voxel_of(const VoxelGrid& grid, const Vec3& x) {
-  std::array<int, 3> at{};
-  for (int axis = 0; axis < 3; ++axis)
-    at[axis] = static_cast<int>(std::clamp(
-        std::floor((x[axis] - grid.low[axis]) / grid.spacing[axis]), 0.0, grid.n[axis] - 1.0));
-  return grid.index(at[0], at[1], at[2]);
-}
 
 /// Joins the shares of a voxel, in order of voxels, and scales them to a sum.
 std::vector<VoxelShare> join_shares(std::vector<VoxelShare> part, double sum) {
@@ -182,7 +167,7 @@ std::vector<VoxelShare> share_sphere_by_area(const VoxelGrid& grid, const Vec3& 
   for (int k = 0; k < n; ++k) {
     const double z = 1 - (2 * k + 1.0) / n, across = std::sqrt(1 - z * z);
     const Vec3 x(across * std::cos(turn * k), across * std::sin(turn * k), z);
-    part.push_back({voxel_of(grid, center + radius * x), 1});
+    part.push_back({grid.index_at(center + radius * x), 1});
   }
   return join_shares(std::move(part), sphere_volume(radius));
 }
@@ -202,7 +187,7 @@ std::vector<VoxelShare> share_surface_by_area(const VoxelGrid& grid, std::span<c
     for (int j = 0; j < n; ++j)
       for (int i = 0; i + j < n; ++i) {
         const auto add = [&](double third) {
-          part.push_back({voxel_of(grid, o + ((i + third) * u + (j + third) * v) / n), area});
+          part.push_back({grid.index_at(o + ((i + third) * u + (j + third) * v) / n), area});
         };
         add(1.0 / 3);
         if (i + j + 1 < n) add(2.0 / 3);

@@ -20,12 +20,6 @@ namespace {
 /// Number of cells below which threads cost more than they save.
 constexpr std::size_t kParallelShares = 50;
 
-std::vector<Cell> list_cells(const State& s) {
-  std::vector<Cell> cells;
-  for_each_cell(s, [&](const Cell& c) { cells.push_back(c); });
-  return cells;
-}
-
 std::vector<substances::VoxelShare> share_cell(const substances::VoxelGrid& grid, const State& s,
                                                const Cell& c, bool by_area) {
   if (!c.deformable) {

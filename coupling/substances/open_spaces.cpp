@@ -35,7 +35,7 @@ class NearSegments {
       const double r = std::max(network.radius[k][0], network.radius[k][1]);
       const Box box = segment_box(network.node[a], network.node[b]).grown(r + reach_);
       if (!box.overlaps(grid.box())) continue;
-      const std::array<int, 3> low = voxel_at(box.low), high = voxel_at(box.high);
+      const std::array<int, 3> low = grid.voxel_at(box.low), high = grid.voxel_at(box.high);
       for (int z = low[2]; z <= high[2]; ++z)
         for (int y = low[1]; y <= high[1]; ++y)
           for (int x = low[0]; x <= high[0]; ++x)
@@ -45,21 +45,13 @@ class NearSegments {
 
   /// Gap to the network, um, at most the diagonal of a voxel.
   double gap(const Vec3& x) const {
-    const std::array<int, 3> at = voxel_at(x);
     double least = reach_;
-    for (const int k : near_[grid_.index(at[0], at[1], at[2])])
+    for (const int k : near_[grid_.index_at(x)])
       least = std::min(least, contact::gap_to_segment(network_, k, x).gap);
     return least;
   }
 
  private:
-  std::array<int, 3> voxel_at(const Vec3& x) const {
-    std::array<int, 3> at{};
-    for (int axis = 0; axis < 3; ++axis)
-      at[axis] = static_cast<int>(std::clamp(
-          std::floor((x[axis] - grid_.low[axis]) / grid_.spacing[axis]), 0.0, grid_.n[axis] - 1.0));
-    return at;
-  }
   const substances::VoxelGrid& grid_;
   const geometry::Network& network_;
   double reach_;
@@ -143,8 +135,7 @@ OpenSpaces find_open_spaces(const World& world, ObstacleCover& obstacles) {
   };
   std::vector<substances::Cover> cells;
   if (any(&Substance::outside_cells)) {
-    std::vector<Cell> cell;
-    for_each_cell(s, [&](const Cell& c) { cell.push_back(c); });
+    const std::vector<Cell> cell = list_cells(s);
     cells.resize(cell.size());
     for_each_index(cells.size(), cells.size() > kParallelCovers,
                    [&](std::size_t k) { cells[k] = cover_cell(p.grid, s, cell[k]); });

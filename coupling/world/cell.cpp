@@ -2,6 +2,12 @@
 
 namespace acinus::coupling {
 
+std::vector<Cell> list_cells(const State& s) {
+  std::vector<Cell> cells;
+  for_each_cell(s, [&](const Cell& c) { cells.push_back(c); });
+  return cells;
+}
+
 CellIndex index_cells(const State& s) {
   CellIndex index;
   for_each_cell(s, [&](const Cell& c) { index.emplace(lineage_of(s, c), c); });

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <unordered_map>
+#include <vector>
 
 #include "coupling/world/world.hpp"
 
@@ -28,6 +29,8 @@ void for_each_cell(const State& s, F f) {
     if (s.dcm.active(l)) f(Cell{true, l, l});
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c) f(Cell{false, c, cell_index(s, c)});
 }
+/// All cells, in the order of for_each_cell.
+std::vector<Cell> list_cells(const State& state);
 inline std::int64_t lineage_of(const State& s, const Cell& c) {
   return c.deformable ? s.dcm.lineage[c.at] : s.cbm.lineage[c.at];
 }

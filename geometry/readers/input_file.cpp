@@ -167,6 +167,23 @@ std::string extension_of(const std::string& path) {
   return dot == path.npos || path[dot] == '/' ? "" : lower_case(path.substr(dot));
 }
 
+std::string trimmed(std::string_view text, std::string_view blanks) {
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == text.npos) return {};
+  return std::string(text.substr(first, text.find_last_not_of(blanks) - first + 1));
+}
+
+std::vector<std::string> split_fields(std::string_view line, char separator,
+                                      std::string_view blanks) {
+  std::vector<std::string> fields;
+  for (std::size_t from = 0; from <= line.size();) {
+    const std::size_t to = std::min(line.find(separator, from), line.size());
+    fields.push_back(trimmed(line.substr(from, to - from), blanks));
+    from = to + 1;
+  }
+  return fields;
+}
+
 std::string lower_case(std::string_view text) {
   std::string lower(text);
   for (char& c : lower) {

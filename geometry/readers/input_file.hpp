@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/vec.hpp"
 
@@ -74,6 +75,13 @@ std::string in_quotes(std::string_view token);
 
 /// Extension of a path from its last dot on, in lower case: ".vtk"; empty when it has none.
 std::string extension_of(const std::string& path);
+
+/// Text without blanks at its ends.
+std::string trimmed(std::string_view text, std::string_view blanks = " \t\r");
+
+/// Fields of a line between separators, each without blanks at its ends; one field at least.
+std::vector<std::string> split_fields(std::string_view line, char separator,
+                                      std::string_view blanks = " \t\r");
 
 /// Text with ASCII letters in lower case.
 std::string lower_case(std::string_view text);

@@ -21,12 +21,18 @@ struct ObservableSection {
   std::vector<Observable> observables;
 };
 
+/// Name with a placeholder for the number of a shell or layer, "shell_<k>_cells".
+std::string without_number(const std::string& name) {
+  static const std::regex number("_[0-9]+(?=_|$)");
+  return std::regex_replace(name, number, "_<k>");
+}
+
 /// Numbered shells and layers by a placeholder, "shell_<k>_cells", each once.
 std::vector<Observable> without_numbers(const std::vector<Observable>& list) {
-  static const std::regex in_name("_[0-9]+(?=_|$)"), in_text("\\b[0-9]+\\b");
+  static const std::regex in_text("\\b[0-9]+\\b");
   std::vector<Observable> out;
   for (Observable o : list) {
-    const std::string name = std::regex_replace(o.name, in_name, "_<k>");
+    const std::string name = without_number(o.name);
     if (name != o.name) o.meaning = std::regex_replace(o.meaning, in_text, "k");
     o.name = name;
     if (std::ranges::find(out, name, &Observable::name) == out.end()) out.push_back(o);
@@ -62,8 +68,7 @@ std::string heading_of(const ObservableSection& section) {
 }  // namespace
 
 std::string explain_observable(const std::string& name) {
-  static const std::regex in_name("_[0-9]+(?=_|$)");
-  const std::string common = std::regex_replace(name, in_name, "_<k>");
+  const std::string common = without_number(name);
   std::string text;
   for (const ObservableSection& section : make_sections())
     for (const Observable& o : section.observables)

@@ -86,13 +86,8 @@ void describe(Visitor& v, Inference& b) {
 const std::vector<Entry>& inference_entries() {
   static const std::vector<Entry> entries = [] {
     Inference inference;
-    std::vector<Entry> all =
-        collect_entries(kExtends, [&](Visitor& visitor) { describe(visitor, inference); });
-    for (Entry& entry : all) {
-      entry.path = "inference." + entry.path;
-      entry.short_path = "inference." + entry.short_path;
-    }
-    return all;
+    return collect_entries(
+        kExtends, [&](Visitor& visitor) { describe(visitor, inference); }, "inference.");
   }();
   return entries;
 }

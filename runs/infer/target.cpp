@@ -17,21 +17,6 @@
 namespace acinus::runs {
 namespace {
 
-std::vector<std::string> fields_of(std::string_view line) {
-  std::vector<std::string> all;
-  for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t end = std::min(line.find(',', at), line.size());
-    std::string_view field = line.substr(at, end - at);
-    constexpr const char* kSpace = " \t\r\"";
-    const std::size_t first = field.find_first_not_of(kSpace);
-    all.emplace_back(first == field.npos
-                         ? std::string_view{}
-                         : field.substr(first, field.find_last_not_of(kSpace) - first + 1));
-    at = end + 1;
-  }
-  return all;
-}
-
 /// Reader of the table, line by line.
 class TargetFile {
  public:
@@ -46,7 +31,7 @@ class TargetFile {
     while (file_.remaining() > 0) {
       place_ = file_.position();
       const std::string_view line = file_.next_line();
-      const std::vector<std::string> field = fields_of(line);
+      const std::vector<std::string> field = geometry::split_fields(line, ',', " \t\r\"");
       if (line.starts_with('#') || (field.size() == 1 && field[0].empty())) continue;
       if (column_.empty())
         take_head(field);

@@ -7,24 +7,10 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "geometry/readers/input_file.hpp"
 
 namespace acinus::runs {
 namespace {
-
-std::string trim(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
-
-std::vector<std::string> split(const std::string& line, char separator) {
-  std::vector<std::string> column;
-  std::size_t from = 0;
-  for (std::size_t to = 0; to != std::string::npos; from = to + 1) {
-    to = line.find(separator, from);
-    column.push_back(trim(line.substr(from, to == std::string::npos ? to : to - from)));
-  }
-  return column;
-}
 
 /// One line, with messages that name it.
 struct TableRow {
@@ -104,11 +90,12 @@ std::vector<PhysiCellRule> parse_physicell_rules(const std::string& text,
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
-    const std::string content = trim(line);
+    const std::string content = geometry::trimmed(line);
     if (content.empty() || content.starts_with("//")) continue;
     const char separator = line.find(',') != std::string::npos ? ',' : '\t';
-    rules.push_back(
-        read_rule({fmt::format("{}:{}", source, number), split(content, separator)}, number));
+    rules.push_back(read_rule(
+        {fmt::format("{}:{}", source, number), geometry::split_fields(content, separator)},
+        number));
   }
   check(!rules.empty(), source + ": no rule in it. Each line of a rules table is one rule.");
   return rules;

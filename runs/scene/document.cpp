@@ -19,12 +19,6 @@ std::string read_file(const std::string& path, std::size_t limit) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
   check(fs::exists(status), fmt::format("{}: no such file", path), Exit::kFileError);
-  check(
-      !fs::exists(fs::path(path) / "run.vtkhdf", code),
-      fmt::format("{0}: is the folder of a run, not a scene. To go on with it: the command of the "
-                  "run with --resume, or acinus run {0}/scene.json --out {0} --resume",
-                  path),
-      Exit::kFileError);
   check(fs::is_regular_file(status), fmt::format("{}: is not a regular file", path),
         Exit::kFileError);
   std::ifstream file(path, std::ios::binary);
@@ -164,9 +158,15 @@ Node& reach(Document& document, const std::vector<std::string>& parts, TextPlace
 }  // namespace
 
 Document read_document(const std::string& path) {
+  std::error_code code;
+  check(
+      !fs::exists(fs::path(path) / "run.vtkhdf", code),
+      fmt::format("{0}: is the folder of a run, not a scene. To go on with it: the command of the "
+                  "run with --resume, or acinus run {0}/scene.json --out {0} --resume",
+                  path),
+      Exit::kFileError);
   const std::string text = read_file(path, kMaxBytes);
   Document document;
-  std::error_code code;
   const fs::path absolute = fs::absolute(path, code).lexically_normal();
   document.sources.push_back({path, absolute.parent_path().string(), false});
   std::vector<std::string> chain{fs::weakly_canonical(path, code).string()};

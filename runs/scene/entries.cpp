@@ -176,7 +176,8 @@ bool leads_to(const Names& path, const Names& pattern) {
 }  // namespace
 
 std::vector<Entry> collect_entries(const char* extends,
-                                   const std::function<void(Visitor&)>& describe) {
+                                   const std::function<void(Visitor&)>& describe,
+                                   const std::string& prefix) {
   EntryCollector collector;
   Entry& first = collector.entries.emplace_back();
   first.path = first.short_path = "extends";
@@ -186,6 +187,10 @@ std::vector<Entry> collect_entries(const char* extends,
   first.compared = false;
   first.meaning = extends;
   describe(collector);
+  for (Entry& entry : collector.entries) {
+    entry.path = prefix + entry.path;
+    entry.short_path = prefix + entry.short_path;
+  }
   return std::move(collector.entries);
 }
 

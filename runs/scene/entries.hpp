@@ -35,8 +35,10 @@ struct Entry {
 
 /// Lines of any registry, in its order, below that of the key `extends`.
 /// @param extends  meaning of that key
+/// @param prefix   put in front of every path, as "study."
 std::vector<Entry> collect_entries(const char* extends,
-                                   const std::function<void(Visitor&)>& describe);
+                                   const std::function<void(Visitor&)>& describe,
+                                   const std::string& prefix = "");
 
 /// Every key of a scene, in canonical order; built once.
 const std::vector<Entry>& all_entries();

@@ -265,13 +265,8 @@ void describe(Visitor& v, Study& s) {
 const std::vector<Entry>& study_entries() {
   static const std::vector<Entry> entries = [] {
     Study study;
-    std::vector<Entry> all =
-        collect_entries(kExtends, [&](Visitor& visitor) { describe(visitor, study); });
-    for (Entry& entry : all) {
-      entry.path = "study." + entry.path;
-      entry.short_path = "study." + entry.short_path;
-    }
-    return all;
+    return collect_entries(
+        kExtends, [&](Visitor& visitor) { describe(visitor, study); }, "study.");
   }();
   return entries;
 }

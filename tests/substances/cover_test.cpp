@@ -94,12 +94,7 @@ TEST(Cover, OfASurfaceIsThatOfItsInside) {
 TEST(Cover, OfABoxIsExact) {
   const VoxelGrid g = cube(40, 4);
   const Vec3 low(10, 10, 5), high(30, 20, 25);
-  std::vector<Vec3> node;
-  for (int k = 0; k < 8; ++k)
-    node.emplace_back((k & 1 ? high : low).x(), (k & 2 ? high : low).y(), (k & 4 ? high : low).z());
-  const std::vector<std::array<int, 3>> triangle{{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
-                                                 {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
-                                                 {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  const auto& [node, triangle] = box_mesh(low, high);
   const Cover c = cover_surface(g, node, triangle);
   EXPECT_NEAR(sum_of(c.volume), 4, 1e-12);
   EXPECT_NEAR(sum_of(c.face[2]), 4, 1e-12);  // the planes z = 10 and 20

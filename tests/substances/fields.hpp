@@ -1,6 +1,7 @@
 #pragma once
 /// Grids, media and exact fields shared by the tests of substances.
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -20,6 +21,21 @@ inline ExchangingBodies no_bodies() { return {kNoShares, {}}; }
 
 inline VoxelGrid cube(double edge, int n) {
   return make_grid({Vec3::Zero(), Vec3::Constant(edge)}, edge / n * (1 + 1e-12));
+}
+
+/// Closed surface of a box, faces outward.
+struct BoxMesh {
+  std::vector<Vec3> node;
+  std::vector<std::array<int, 3>> triangle{{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                           {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                           {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+};
+inline BoxMesh box_mesh(const Vec3& low, const Vec3& high) {
+  BoxMesh box;
+  for (int k = 0; k < 8; ++k)
+    box.node.emplace_back((k & 1 ? high : low).x(), (k & 2 ? high : low).y(),
+                          (k & 4 ? high : low).z());
+  return box;
 }
 
 inline std::vector<double> sample(const VoxelGrid& g, const std::function<double(const Vec3&)>& f) {

@@ -67,12 +67,7 @@ TEST(Shares, OfABoxWithEdgesOnColumnsAreExact) {
   // Every edge of the mesh lies on vertical planes that columns may hit.
   const VoxelGrid g = cube(40, 4);
   const Vec3 low(10, 10, 5), high(30, 20, 25);
-  std::vector<Vec3> node;
-  for (int k = 0; k < 8; ++k)
-    node.emplace_back((k & 1 ? high : low).x(), (k & 2 ? high : low).y(), (k & 4 ? high : low).z());
-  const std::vector<std::array<int, 3>> triangle{{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
-                                                 {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
-                                                 {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  const auto& [node, triangle] = box_mesh(low, high);
   const std::vector<VoxelShare> shares = share_surface(g, node, triangle);
   EXPECT_NEAR(volume_of(shares), 20 * 10 * 20, 1e-9);
   EXPECT_EQ(shares.size(), 6U);
