@@ -56,20 +56,18 @@ def draw_single(out, run, options, size, frame="last"):
 
 
 def overview(runs):
-    sheet = Sheet(1600, 600)
+    sheet = Sheet(1600, 540)
     run, day = runs.get("spheroid_adhesive"), study_run(runs, "dcm_III_1nN", 1)
     um = 1.12 * extent(run)
-    sheet.text(300, 26, "80 deformable cells grown from one, cut open", 18, bold=True, align="center")
-    sheet.picture(run, "last", ["--color", "cytosol_pressure", "--range", "10", "32", *SECTION], 20, 50, 540, 540, um)
-    sheet.bar("cytosol\npressure\nPa", 10, 32, 580, 160, 300)
-    sheet.scale(um, 540, 560, 575)
-    sheet.text(1140, 26, "a lesion closes in a sixth of a liver lobule", 18, bold=True, align="center")
+    sheet.picture(run, "last", ["--color", "cytosol_pressure", "--range", "10", "32", *SECTION], 20, 0, 540, 540, um)
+    sheet.bar("cytosol\npressure\nPa", 10, 32, 580, 110, 300)
+    sheet.scale(um, 540, 560, 515)
     for k, days in enumerate((0, 2, 4)):
         left = 690 + 300 * k
-        sheet.text(left + 150, 100, f"day {days}", 17, bold=True, align="center")
-        sheet.picture(day, frame_at(day, 86400 * days), FROM_ABOVE, left, 100, 300, 420, 270)
-    sheet.legend(["deformable", "vessel"], 710, 550)
-    sheet.scale(270, 300, 1580, 575)
+        sheet.text(left + 150, 45, f"day {days}", 17, bold=True, align="center")
+        sheet.picture(day, frame_at(day, 86400 * days), FROM_ABOVE, left, 45, 300, 420, 270)
+    sheet.legend(["deformable", "vessel"], 710, 490)
+    sheet.scale(270, 300, 1580, 515)
     sheet.save(IMAGES / "overview.png")
 
 
