@@ -15,10 +15,26 @@ namespace {
 
 constexpr double kWidth = 720, kHeight = 480;
 constexpr double kPlotLeft = 80, kPlotRight = 190, kPlotTop = 40, kPlotBottom = 60;
+constexpr double kFontSize = 12;
 
 /// Colours that are distinct in print and for the colour blind.
 constexpr std::array<const char*, 8> kColor{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                             "#e69f00", "#56b4e9", "#000000", "#999999"};
+
+/// Multiples of 1, 2 or 5 times a power of ten from low to high, some six.
+std::vector<double> steps(double low, double high) {
+  const double rough = (high - low) / 6, decade = std::pow(10, std::floor(std::log10(rough)));
+  const double step = rough / decade < 1.5   ? decade
+                      : rough / decade < 3.5 ? 2 * decade
+                                             : 5 * decade;
+  std::vector<double> out;
+  for (double t = std::ceil(low / step) * step; t <= high + 1e-9 * step; t += step)
+    out.push_back(std::abs(t) < 1e-9 * step ? 0 : t);
+  return out;
+}
+
+/// Width of a text of the usual size, as most browsers draw it.
+double width_of_text(std::size_t characters) { return 6.6 * static_cast<double>(characters); }
 
 /// Axis: maps values to positions on the page.
 struct Axis {
@@ -41,18 +57,24 @@ struct Axis {
   double place(double v, double from, double to) const {
     return from + (v - low) / (high - low) * (to - from);
   }
-  /// Round values within the axis: decades, or steps of 1, 2 or 5.
+  /// Round values within the axis, as places on it: steps of 1, 2 or 5, or decades.
   std::vector<double> ticks() const {
-    std::vector<double> out;
-    double step = 1;
-    if (!log || high - low < 1.5) {
-      const double rough = (high - low) / 6, decade = std::pow(10, std::floor(std::log10(rough)));
-      step = rough / decade < 1.5 ? decade : rough / decade < 3.5 ? 2 * decade : 5 * decade;
-    } else if (high - low > 8) {
-      step = std::ceil((high - low) / 8);
+    constexpr double kLinear = 1, kParts = 2.5;  // most decades with steps; with 1, 2 and 5 of each
+    if (log && high - low < kLinear) {
+      std::vector<double> out;
+      for (const double t : steps(std::pow(10, low), std::pow(10, high)))
+        if (t > 0) out.push_back(std::log10(t));
+      return out;
     }
-    for (double t = std::ceil(low / step) * step; t <= high + 1e-9 * step; t += step)
-      out.push_back(std::abs(t) < 1e-9 * step ? 0 : t);
+    if (!log) return steps(low, high);
+    std::vector<double> out;
+    const bool parts = high - low < kParts;
+    const double decades = std::ceil((high - low) / 8);
+    for (double t = std::floor(low / decades) * decades; t <= high; t += decades)
+      for (const double factor : {1.0, 2.0, 5.0})
+        if (const double at = t + std::log10(factor);
+            at >= low && at <= high && (parts || factor == 1))
+          out.push_back(at);
     return out;
   }
   std::string label(double tick) const {
@@ -63,12 +85,13 @@ struct Axis {
 /// Plotting area with its axes.
 struct Page {
   Axis x, y;
+  double left = kPlotLeft;
   double right = kWidth - kPlotRight, bottom = kHeight - kPlotBottom;
 
   std::optional<std::pair<double, double>> place(double px, double py) const {
     const auto sx = x.scaled(px), sy = y.scaled(py);
     if (!sx || !sy) return std::nullopt;
-    return std::pair{x.place(*sx, kPlotLeft, right), y.place(*sy, bottom, kPlotTop)};
+    return std::pair{x.place(*sx, left, right), y.place(*sy, bottom, kPlotTop)};
   }
 };
 
@@ -118,33 +141,41 @@ std::string draw_line(const Page& page, const PlotLine& line, const char* color,
   return path + marks;
 }
 
+/// Attribute for a text that is longer than the room for it.
+std::string fit_text(const std::string& text, double room) {
+  const double needed = width_of_text(text.size());
+  return needed <= room ? "" : fmt::format(" font-size=\"{:.1f}\"", kFontSize * room / needed);
+}
+
 std::string draw_axes(const Page& page, const Plot& plot) {
   std::string out;
-  const double right = page.right, bottom = page.bottom;
+  const double left = page.left, right = page.right, bottom = page.bottom;
   for (double t : page.x.ticks()) {
-    const double at = page.x.place(t, kPlotLeft, right);
+    const double at = page.x.place(t, left, right);
     out += fmt::format("<path d=\"M{0:.1f} {1} V{2}\" stroke=\"#ddd\"/>\n", at, kPlotTop, bottom);
     out += svg_text(at, bottom + 18, "middle", page.x.label(t));
   }
   for (double t : page.y.ticks()) {
     const double at = page.y.place(t, bottom, kPlotTop);
-    out += fmt::format("<path d=\"M{0} {1:.1f} H{2}\" stroke=\"#ddd\"/>\n", kPlotLeft, at, right);
-    out += svg_text(kPlotLeft - 6, at + 4, "end", page.y.label(t));
+    out += fmt::format("<path d=\"M{0} {1:.1f} H{2}\" stroke=\"#ddd\"/>\n", left, at, right);
+    out += svg_text(left - 6, at + 4, "end", page.y.label(t));
   }
   out += fmt::format(
-      "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"black\"/>\n",
-      kPlotLeft, kPlotTop, right - kPlotLeft, bottom - kPlotTop);
-  out += svg_text((kPlotLeft + right) / 2, kHeight - 16, "middle", plot.x_label);
+      "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"black\"/>\n", left,
+      kPlotTop, right - left, bottom - kPlotTop);
+  out += svg_text((left + right) / 2, kHeight - 16, "middle", plot.x_label,
+                  fit_text(plot.x_label, right - left));
   return out +
          svg_text(20, (kPlotTop + bottom) / 2, "middle", plot.y_label,
-                  fmt::format(" transform=\"rotate(-90 20 {:.1f})\"", (kPlotTop + bottom) / 2));
+                  fmt::format(" transform=\"rotate(-90 20 {:.1f})\"{}", (kPlotTop + bottom) / 2,
+                              fit_text(plot.y_label, bottom - kPlotTop)));
 }
 
 /// Width of the legend for the longest name, in whole steps so that most plots are equally wide.
 double legend_width(const Plot& plot) {
   std::size_t longest = 0;
   for (const PlotLine& line : plot.line) longest = std::max(longest, line.name.size());
-  const double needed = 48 + 6.6 * static_cast<double>(longest);
+  const double needed = 48 + width_of_text(longest);
   return std::min(std::max(kPlotRight, 60 * std::ceil(needed / 60)), 550.0);
 }
 
@@ -189,12 +220,12 @@ std::string legend_entry(const Page& page, const PlotLine& line, std::size_t k, 
 
 /// Draws the plot on a page whose axes include its points.
 std::string draw(const Plot& plot, Page page) {
-  const double middle = (kPlotLeft + page.right) / 2;
+  const double middle = (page.left + page.right) / 2;
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
-      "{1}\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" "
+      "{1}\" font-family=\"sans-serif\" font-size=\"{2}\">\n<rect width=\"100%\" height=\"100%\" "
       "fill=\"white\"/>\n",
-      width_of(plot, page), height_of(plot));
+      width_of(plot, page), height_of(plot), kFontSize);
   out += svg_text(middle, 24, "middle", plot.title, " font-size=\"15\"");
   if (page.x.low > page.x.high) {
     out += svg_text(middle, kHeight / 2, "middle", "no points");
@@ -219,10 +250,24 @@ std::string draw(const Plot& plot, Page page) {
 
 namespace {
 
+/// Makes room for the numbers of the y axis beside its label.
+void fit_left(Page& page) {
+  constexpr double kBeside = 38;  // the label, and gaps
+  if (page.x.low > page.x.high) return;
+  Axis y = page.y;
+  y.widen();
+  std::size_t longest = 0;
+  for (const double t : y.ticks()) longest = std::max(longest, y.label(t).size());
+  const double left = std::max(kPlotLeft, kBeside + width_of_text(longest));
+  page.right += left - page.left;
+  page.left = left;
+}
+
 /// Page of one plot, with axes over all points and bands.
 Page page_of(const Plot& plot) {
   Page page{{plot.log_x}, {plot.log_y}};
   include_all(plot, page);
+  fit_left(page);
   return page;
 }
 
@@ -273,6 +318,7 @@ std::string draw_panels(std::vector<Plot> plots) {
     plot.legend = k + 1 == plots.size();
     Page page = page_of(plot);
     if (page.x.low <= page.x.high) page.y = all.y;
+    fit_left(page);
     out += at_place(draw(plot, page), width, 0);
     width += width_of(plot, page);
     height = std::max(height, height_of(plot));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "io/heat_map.hpp"
 
@@ -61,6 +62,30 @@ TEST(Plot, OnePointGetsAnAxisOfItsOwn) {
   const std::string svg = draw_plot({"one", "x", "y", false, false, {{"a", {{3, 7}}, true, true}}});
   EXPECT_EQ(count(svg, "<circle"), 1u);
   EXPECT_EQ(count(svg, "nan"), 0u);
+}
+
+TEST(Plot, LogarithmicAxesOfFewDecadesHaveRoundNumbers) {
+  const auto svg_over = [](double high) {
+    return draw_plot({"", "x", "y", true, false, {{"a", {{1e9, 1}, {high, 2}}}}});
+  };
+  for (const char* tick : {">1e+09<", ">2e+09<", ">5e+09<", ">1e+10<", ">2e+10<"})
+    EXPECT_EQ(count(svg_over(3e10), tick), 1u) << tick;
+  for (const char* tick : {">1e+09<", ">1.2e+09<", ">1.4e+09<", ">1.6e+09<"})
+    EXPECT_EQ(count(svg_over(1.6e9), tick), 1u) << tick;
+}
+
+TEST(Plot, LabelsKeepClearOfEachOther) {
+  // The numbers end 6 left of the axis; the label stands at 20.
+  const std::string wide =
+      draw_plot({"", "x", "y", false, false, {{"a", {{0, 1.111e-7}, {1, 1.119e-7}}}}});
+  const std::size_t at = wide.find("text-anchor=\"end\"");
+  ASSERT_NE(at, wide.npos);
+  const double end = std::stod(wide.substr(wide.rfind("x=\"", at) + 3));
+  EXPECT_GT(end - 6.6 * 9, 20 + 6);  // such as 1.112e-07
+  const std::string label(80, 'm');
+  EXPECT_EQ(count(draw_plot({"", label, "y", false, false, {{"a", {{0, 0}, {1, 1}}}}}),
+                  "font-size=\"10.2\""),
+            1u);
 }
 
 TEST(Plot, PanelsShareOneRangeAndOneLegend) {
