@@ -13,6 +13,9 @@
 
 namespace acinus::imaging {
 
+/// Bytes at the start of a file that may be header.
+inline constexpr std::size_t kMostHeader = 1 << 24;
+
 /// Header fields by name in lower case, each with its place in the file for messages.
 class HeaderFields {
  public:

@@ -2,11 +2,12 @@
 /// Parts of read_image.cpp, one per file format. Not for use elsewhere.
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "imaging/label_image.hpp"
+#include "imaging/label_rows.hpp"
 #include "imaging/scalar.hpp"
 
 namespace acinus::imaging {
@@ -19,7 +20,8 @@ struct ImageFile {
   /// Reason why the sides cannot be used: a contradiction, an unknown unit. Empty: none.
   std::string step_fault;
   Scalar type = Scalar::kU8;
-  std::vector<Label> label;       ///< [z][y][x]
+  LabelRows rows;                 ///< see prepare_rows
+  Label fill = 0;                 ///< label of voxels that the file does not have
   std::vector<std::string> note;  ///< statements of the file that are ignored
 
   Voxel voxels() const {  ///< @pre count_voxels
@@ -70,15 +72,25 @@ void check_stack(const std::string& path, const std::array<std::int64_t, 3>& siz
 /// @param compressed  LZW makes data at most some thousand times smaller, deflate a thousand
 void check_announced(const std::string& path, double announced, double stored, bool compressed);
 
+/// Sets the size of `rows` from that of the image, which may not be allowed: Error.
+/// @return number of voxels
+std::size_t prepare_rows(const std::string& path, ImageFile& file);
+
 /// Image data that a header announces: raw bytes, or a zlib or gzip stream.
 struct ImageBytes {
-  std::string path;  ///< path of the file with the data, for messages
-  std::string_view stored;
+  std::string path;        ///< file with the data
+  std::uint64_t from = 0;  ///< first byte of the data, or of the stream, in the file
   bool compressed = false, swap = false;
-  std::size_t skip = 0;  ///< bytes before those of the voxels, after decompression
+  /// Bytes before and behind those of the voxels, after decompression.
+  std::uint64_t skip = 0, rest = 0;
 };
 
-/// Converts the data to file.label. @pre file.size and file.type are set
+/// Reads the data into file.rows, some slices or lines at a time. @pre file.type is set and
+/// prepare_rows was called
 void take_bytes(const ImageBytes& bytes, ImageFile& file);
+
+/// Appends numbers, [z][y][x], as labels. @param first  number of the first line
+void append_lines(const std::string& path, std::span<const std::byte> bytes, bool swap,
+                  std::size_t first, ImageFile& file);
 
 }  // namespace acinus::imaging

@@ -23,13 +23,13 @@ constexpr double kEdgeOverRadius = 0.12;
 /// Least edge length, in voxel sides.
 constexpr double kLeastEdgeInVoxels = 0.7;
 
-double edge_for(const LabelImage& image, const Piece& piece) {
+double edge_for(const LabelRows& image, const Piece& piece) {
   const double volume = static_cast<double>(piece.n_voxel) * image.voxel_volume();
   return std::max(kEdgeOverRadius * sphere_radius(volume),
                   kLeastEdgeInVoxels * image.voxel.minCoeff());
 }
 
-void check_uneven(const LabelImage& image, std::vector<std::string>& warnings) {
+void check_uneven(const LabelRows& image, std::vector<std::string>& warnings) {
   constexpr double kMostAspectRatio = 4;
   const double ratio = image.voxel.maxCoeff() / image.voxel.minCoeff();
   if (ratio <= kMostAspectRatio) return;
@@ -39,45 +39,73 @@ void check_uneven(const LabelImage& image, std::vector<std::string>& warnings) {
                   image.voxel[0], image.voxel[1], image.voxel[2], ratio));
 }
 
+/// Voxels that are vessels, and those of them that were part of a cell.
+struct VesselCount {
+  std::size_t any = 0, both = 0;
+};
+
+/// Moves the vessels of one line into a line of their own, with label 1.
+/// @param other  line of the image of vessels, not 0 inside them; nothing: no such image
+VesselCount take_vessels(Label vessel_label, const LabelLine* other, LabelLine& cells,
+                         LabelLine& vessels) {
+  VesselCount n;
+  LabelLine rest;
+  const auto take = [&](int first, int end, Label label, bool given) {
+    const bool named = vessel_label != 0 && label == vessel_label, vessel = given || named;
+    append_row(end, vessel ? 0 : label, rest);
+    append_row(end, vessel ? 1 : 0, vessels);
+    n.any += vessel ? end - first : 0;
+    n.both += vessel && !named && label != 0 ? end - first : 0;
+  };
+  if (other != nullptr)
+    visit_overlaps(cells, *other, [&](int first, int end, std::size_t i, std::size_t j) {
+      take(first, end, cells[i].label, (*other)[j].label != 0);
+    });
+  else
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      take(first_of(cells, k), cells[k].end, cells[k].label, false);
+  rest.shrink_to_fit();
+  vessels.shrink_to_fit();
+  cells = std::move(rest);
+  return n;
+}
+
 /// Moves the vessels from the image of the cells into an image of their own, with label 1.
 /// @return nothing if the options name no vessels
-std::optional<LabelImage> take_vessels(const ImportOptions& o, LabelImage& cells,
-                                       std::vector<std::string>& warnings) {
+std::optional<LabelRows> take_vessels(const ImportOptions& o, LabelRows& cells,
+                                      std::vector<std::string>& warnings) {
   if (o.vessels.empty() && o.vessel_label == 0) return std::nullopt;
-  LabelImage vessels{cells.size, cells.voxel, std::vector<Label>(cells.label.size(), 0),
-                     cells.most_label};
+  LabelRows other;
   if (!o.vessels.empty()) {
     ReadImage read = o.read;
     read.voxel = cells.voxel;
     read.unit = 0;
     read.second = true;
-    const LabelImage other = read_image(o.vessels, read, &warnings);
+    other = read_image(o.vessels, read, &warnings);
     check(other.size == cells.size,
           fmt::format("{}: {} x {} x {} voxels, but {} has {} x {} x {}. Both must show the same.",
                       o.vessels, other.size[0], other.size[1], other.size[2], o.image,
                       cells.size[0], cells.size[1], cells.size[2]));
-    for (std::size_t k = 0; k < other.label.size(); ++k) vessels.label[k] = other.label[k] != 0;
   }
-  std::size_t both = 0, any = 0;
-  for (std::size_t k = 0; k < cells.label.size(); ++k) {
-    const bool named = o.vessel_label != 0 && cells.label[k] == o.vessel_label;
-    if (named) vessels.label[k] = 1;
-    any += vessels.label[k];
-    if (vessels.label[k] == 0 || cells.label[k] == 0) continue;
-    both += named ? 0 : 1;
-    cells.label[k] = 0;
+  LabelRows vessels{cells, std::vector<LabelLine>(cells.line.size()), cells.most_label};
+  VesselCount all;
+  for (std::size_t k = 0; k < cells.line.size(); ++k) {
+    const VesselCount n = take_vessels(o.vessel_label, o.vessels.empty() ? nullptr : &other.line[k],
+                                       cells.line[k], vessels.line[k]);
+    all.any += n.any;
+    all.both += n.both;
   }
-  if (both > 0)
+  if (all.both > 0)
     warnings.push_back(
-        fmt::format("{} voxels belong to a cell and to a vessel: vessels have them", both));
-  check(any > 0,
+        fmt::format("{} voxels belong to a cell and to a vessel: vessels have them", all.both));
+  check(all.any > 0,
         fmt::format("{}: no voxel is {}.", o.vessels.empty() ? o.image : o.vessels,
                     o.vessels.empty() ? fmt::format("labelled {}", o.vessel_label) : "not 0"));
   return vessels;
 }
 
 /// Refuses images whose labels overflowed 8 bits: many labels then consist of several large pieces.
-void check_overflow(const ImportOptions& o, const LabelImage& image, const Pieces& pieces) {
+void check_overflow(const ImportOptions& o, const LabelRows& image, const Pieces& pieces) {
   constexpr double kLargePart = 0.3, kMostRepeated = 0.1;
   std::size_t labels = 0, twice = 0;
   Label first = 0;
@@ -101,10 +129,19 @@ void check_overflow(const ImportOptions& o, const LabelImage& image, const Piece
                 : ""));
 }
 
+/// Calls visit(row, piece) for every row of a piece. @pre the pieces are those of the image
+template <class Visit>
+void visit_piece_rows(const Pieces& pieces, LabelRows& image, const Visit& visit) {
+  std::size_t k = 0;
+  for (LabelLine& line : image.line)
+    for (LabelRow& row : line)
+      if (const int piece = pieces.of_row[k++]; piece >= 0) visit(row, piece);
+}
+
 /// Selection of the pieces that become cells; all others are erased from the image.
 class Sorting {
  public:
-  Sorting(const ImportOptions& o, LabelImage& image, ImportedTissue& tissue)
+  Sorting(const ImportOptions& o, LabelRows& image, ImportedTissue& tissue)
       : o_(o), image_(image), tissue_(tissue) {}
 
   /// Selects pieces and erases the rest.
@@ -129,9 +166,9 @@ class Sorting {
     }
     warn_of_giant(kept);
     if (o_.split) number_anew(pieces, keep, kept);
-    for (const PieceRow& row : pieces.row)
-      if (keep[row.piece] == 0)
-        std::fill_n(&image_.label[image_.index(row.first)], row.length, Label{0});
+    visit_piece_rows(pieces, image_, [&](LabelRow& row, int piece) {
+      if (keep[piece] == 0) row.label = 0;
+    });
     return kept;
   }
 
@@ -192,19 +229,18 @@ class Sorting {
       label[k] = main ? pieces.piece[k].label : ++next;
       if (keep[k] != 0) kept[at++].label = label[k];
     }
-    for (const PieceRow& row : pieces.row)
-      std::fill_n(&image_.label[image_.index(row.first)], row.length, label[row.piece]);
+    visit_piece_rows(pieces, image_, [&](LabelRow& row, int piece) { row.label = label[piece]; });
     std::ranges::sort(kept, {}, &Piece::label);
   }
 
   const ImportOptions& o_;
-  LabelImage& image_;
+  LabelRows& image_;
   ImportedTissue& tissue_;
 };
 
 /// Triangulates the surface of a piece, with stronger smoothing where it has handles at first.
 /// @return cause of failure, empty on success
-std::string make_surface(const LabelImage& image, const Piece& piece, double smoothing,
+std::string make_surface(const LabelRows& image, const Piece& piece, double smoothing,
                          geometry::Surface& surface) {
   constexpr std::array<double, 3> kSmoothingFactors{1, 1.6, 2.5};
   constexpr double kMostLostVolume = 0.1;
@@ -228,7 +264,7 @@ std::string make_surface(const LabelImage& image, const Piece& piece, double smo
   return why;
 }
 
-void add_cells(const ImportOptions& o, const LabelImage& image, const std::vector<Piece>& pieces,
+void add_cells(const ImportOptions& o, const LabelRows& image, const std::vector<Piece>& pieces,
                ImportedTissue& tissue) {
   std::vector<ImportedCell> cell(pieces.size());
   std::vector<std::string> why(pieces.size());
@@ -251,7 +287,7 @@ void add_cells(const ImportOptions& o, const LabelImage& image, const std::vecto
 
 /// Counts the neighbours of every cell in the image and marks the cells that touch vessels. Vessels
 /// are entered into the image, with a label of their own.
-void add_neighbours(LabelImage& image, const std::optional<LabelImage>& vessels,
+void add_neighbours(LabelRows& image, const std::optional<LabelRows>& vessels,
                     ImportedTissue& tissue) {
   constexpr int kLeastFaces = 4;  // of voxels: fewer are chance
   const Label vessel = [&] {
@@ -259,9 +295,14 @@ void add_neighbours(LabelImage& image, const std::optional<LabelImage>& vessels,
     for (const ImportedCell& c : tissue.cell) most = std::max(most, c.label);
     return most + 1;
   }();
-  if (vessels)
-    for (std::size_t k = 0; k < image.label.size(); ++k)
-      if (vessels->label[k] != 0) image.label[k] = vessel;
+  for (std::size_t k = 0; vessels && k < image.line.size(); ++k) {
+    LabelLine joined;
+    const LabelLine &cells = image.line[k], &others = vessels->line[k];
+    visit_overlaps(cells, others, [&](int, int end, std::size_t i, std::size_t j) {
+      append_row(end, others[j].label != 0 ? vessel : cells[i].label, joined);
+    });
+    image.line[k] = std::move(joined);
+  }
   std::map<Label, ImportedCell*> by_label;
   for (ImportedCell& c : tissue.cell) by_label[c.label] = &c;
   for (const auto& [a, b] : find_touching(image, kLeastFaces)) {
@@ -275,13 +316,12 @@ void add_neighbours(LabelImage& image, const std::optional<LabelImage>& vessels,
   }
 }
 
-void add_vessels(const ImportOptions& o, LabelImage numbered, ImportedTissue& tissue) {
+void add_vessels(const ImportOptions& o, LabelRows numbered, ImportedTissue& tissue) {
   const Pieces pieces = find_pieces(numbered);
   constexpr std::size_t kLeastVoxels = 27;
   constexpr double kVesselSmoothing = 1.5, kVesselEdge = 1.5;
-  for (const PieceRow& row : pieces.row)
-    std::fill_n(&numbered.label[numbered.index(row.first)], row.length,
-                static_cast<Label>(row.piece) + 1);
+  visit_piece_rows(pieces, numbered,
+                   [](LabelRow& row, int piece) { row.label = static_cast<Label>(piece) + 1; });
   std::size_t specks = 0;
   for (std::size_t k = 0; k < pieces.piece.size(); ++k) {
     Piece p = pieces.piece[k];
@@ -315,12 +355,12 @@ void add_vessels(const ImportOptions& o, LabelImage numbered, ImportedTissue& ti
 
 ImportedTissue import_image(const ImportOptions& o) {
   ImportedTissue tissue;
-  LabelImage image = read_image(o.image, o.read, &tissue.warnings);
+  LabelRows image = read_image(o.image, o.read, &tissue.warnings);
   clear_background(o, image);
   tissue.size = image.size;
   tissue.voxel = image.voxel;
   check_uneven(image, tissue.warnings);
-  std::optional<LabelImage> vessels = take_vessels(o, image, tissue.warnings);
+  std::optional<LabelRows> vessels = take_vessels(o, image, tissue.warnings);
   const std::vector<Piece> pieces = Sorting(o, image, tissue).run();
   add_cells(o, image, pieces, tissue);
   std::ranges::stable_sort(tissue.left_out, [](const LeftOut& a, const LeftOut& b) {

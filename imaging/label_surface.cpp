@@ -11,6 +11,7 @@
 
 #include "core/box.hpp"
 #include "core/error.hpp"
+#include "core/parallel/memory.hpp"
 #include "geometry/components.hpp"
 #include "geometry/euler.hpp"
 #include "geometry/implicit/extract.hpp"
@@ -27,8 +28,19 @@ double volume_of(const geometry::Surface& s) {
   return geometry::compute_volume(s.node, s.triangle);
 }
 
+/// Throws Error if the distances in a box take more memory than there is.
+void check_room(const Piece& piece, const Grid& grid) {
+  constexpr double kBytes = 25;  // a voxel: one to mark it, three distances
+  const double need = kBytes * static_cast<double>(grid.n_voxel()), memory = machine_memory();
+  check(need <= memory,
+        fmt::format("label {}: the surface of a piece that spans {} x {} x {} voxels takes {:.3g} "
+                    "GB; this machine has {:.3g}. Crop the image, or make its voxels larger.",
+                    piece.label, grid.size[0], grid.size[1], grid.size[2], 1e-9 * need,
+                    1e-9 * memory));
+}
+
 /// Smoothed signed distance in and around the box of a piece.
-Grid distance_about(const LabelImage& image, const Piece& piece, double smoothing) {
+Grid distance_about(const LabelRows& image, const Piece& piece, double smoothing) {
   const int margin = 2 + static_cast<int>(std::ceil(3 * smoothing));
   Grid grid;
   grid.voxel = image.voxel;
@@ -38,12 +50,21 @@ Grid distance_about(const LabelImage& image, const Piece& piece, double smoothin
     grid.size[k] = piece.high[k] - piece.low[k] + 1 + 2 * margin;
   }
   grid.origin = image.center(low);
+  check_room(piece, grid);
   std::vector<std::uint8_t> inside(grid.n_voxel());
   for (int z = piece.low[2]; z <= piece.high[2]; ++z)
-    for (int y = piece.low[1]; y <= piece.high[1]; ++y)
-      for (int x = piece.low[0]; x <= piece.high[0]; ++x)
-        if (image.label[image.index({x, y, z})] == piece.label)
-          inside[grid.index({x - low[0], y - low[1], z - low[2]})] = 1;
+    for (int y = piece.low[1]; y <= piece.high[1]; ++y) {
+      const LabelLine& line = image.line[image.line_index(y, z)];
+      const auto from = std::ranges::upper_bound(line, piece.low[0], {}, &LabelRow::end);
+      for (std::size_t k = from - line.begin(); k < line.size(); ++k) {
+        const int first = std::max(first_of(line, k), piece.low[0]);
+        const int end = std::min(line[k].end, piece.high[0] + 1);
+        if (first >= end) break;
+        if (line[k].label == piece.label)
+          std::fill_n(&inside[grid.index({first - low[0], y - low[1], z - low[2]})], end - first,
+                      1);
+      }
+    }
   compute_signed_distance(inside, grid);
   smooth(Vec3::Constant(smoothing), grid);
   return grid;
@@ -88,7 +109,7 @@ void scale_to(double volume, geometry::Surface& s) {
 
 }  // namespace
 
-LabelSurface make_label_surface(const LabelImage& image, const Piece& piece, double edge,
+LabelSurface make_label_surface(const LabelRows& image, const Piece& piece, double edge,
                                 double smoothing) {
   constexpr int kRounds = 4;
   constexpr double kNearly = 2e-3;  // of the volume; what is missing then is scaled

@@ -2,7 +2,7 @@
 /// Closed surface of one label.
 
 #include "geometry/surface.hpp"
-#include "imaging/label_image.hpp"
+#include "imaging/label_rows.hpp"
 #include "imaging/pieces.hpp"
 
 namespace acinus::imaging {
@@ -20,7 +20,7 @@ struct LabelSurface {
 /// @param piece      connected voxels of the label
 /// @param edge       um, mean side of the triangles
 /// Throws Error if nothing is left after smoothing: a label of a few voxels.
-LabelSurface make_label_surface(const LabelImage& image, const Piece& piece, double edge,
+LabelSurface make_label_surface(const LabelRows& image, const Piece& piece, double edge,
                                 double smoothing);
 
 }  // namespace acinus::imaging

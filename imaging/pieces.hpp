@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "imaging/label_image.hpp"
+#include "imaging/label_rows.hpp"
 
 namespace acinus::imaging {
 
@@ -16,22 +16,17 @@ struct Piece {
   bool at_border = false;      ///< touches the border of the image, so part of it may be outside
 };
 
-/// Row of voxels of one piece along x.
-struct PieceRow {
-  Voxel first{};
-  int length = 0, piece = 0;
-};
-
 struct Pieces {
-  std::vector<Piece> piece;   ///< by label, the largest of a label first
-  std::vector<PieceRow> row;  ///< in the order of the image
+  std::vector<Piece> piece;  ///< by label, the largest of a label first
+  std::vector<int> of_row;   ///< piece of every row, in the order of the image; -1: background
 };
 
-/// Finds the connected pieces of all labels. Cost: linear in voxels.
-Pieces find_pieces(const LabelImage& image);
+/// Finds the connected pieces of all labels. Cost: linear in rows, of which there are at most 2^31.
+/// Throws Error if there are more.
+Pieces find_pieces(const LabelRows& image);
 
 /// Pairs of labels, the lower first and ascending, that share at least `least` faces of voxels. The
 /// background has no pairs.
-std::vector<std::array<Label, 2>> find_touching(const LabelImage& image, int least);
+std::vector<std::array<Label, 2>> find_touching(const LabelRows& image, int least);
 
 }  // namespace acinus::imaging

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 
 #include "core/error.hpp"
 #include "geometry/readers/input_file.hpp"
@@ -171,28 +172,67 @@ void take_steps(const std::string& path, const io::VolumeInfo& v, const Axes& ax
   }
 }
 
-/// Extracts the numbers of one channel of one time as [z][y][x].
-std::vector<std::byte> arrange(const std::vector<std::byte>& all, const io::VolumeInfo& v,
-                               const Axes& axes, const ImageFile& file, std::int64_t chosen) {
-  std::vector<std::size_t> stride(v.shape.size(), v.bytes);
-  for (std::size_t k = v.shape.size() - 1; k-- > 0;) stride[k] = stride[k + 1] * v.shape[k + 1];
-  const auto stride_of = [&](const std::optional<std::size_t>& a) { return a ? stride[*a] : 0; };
-  const std::size_t channels = axes.channel ? v.shape[*axes.channel] : 1;
-  const std::size_t c = chosen % channels, t = chosen / channels;
-  const std::size_t first = c * stride_of(axes.channel) + t * stride_of(axes.time);
-  const std::size_t bytes = v.bytes;
-  const Voxel size = file.voxels();
-  std::vector<std::byte> out;
-  out.reserve(bytes * size[0] * size[1] * size[2]);
-  for (int z = 0; z < size[2]; ++z)
-    for (int y = 0; y < size[1]; ++y)
-      for (int x = 0; x < size[0]; ++x) {
-        const std::size_t at = first + z * stride_of(axes.space[2]) + y * stride_of(axes.space[1]) +
-                               x * stride_of(axes.space[0]);
-        const auto from = all.begin() + static_cast<std::ptrdiff_t>(at);
-        out.insert(out.end(), from, from + static_cast<std::ptrdiff_t>(bytes));
-      }
-  return out;
+/// Layout of one channel of one time in a volume.
+struct ChannelLayout {
+  io::VolumeBox all;                  ///< its numbers
+  std::array<std::size_t, 3> axis{};  ///< of x, y, z
+};
+
+ChannelLayout lay_out(const io::VolumeInfo& v, const Axes& axes, std::int64_t chosen) {
+  ChannelLayout c{{std::vector<std::int64_t>(v.shape.size(), 0), v.shape}, {}};
+  for (std::size_t k = 0; k < 3; ++k) c.axis[k] = *axes.space[k];
+  const std::int64_t channels = axes.channel ? v.shape[*axes.channel] : 1;
+  const auto choose = [&](const std::optional<std::size_t>& axis, std::int64_t n) {
+    if (!axis) return;
+    c.all.first[*axis] = n;
+    c.all.count[*axis] = 1;
+  };
+  choose(axes.channel, chosen % channels);
+  choose(axes.time, chosen / channels);
+  return c;
+}
+
+/// Cuts a channel along z and y, at the borders of chunks, into boxes of some MB or one chunk.
+std::vector<io::VolumeBox> cut(const io::VolumeInfo& v, const ChannelLayout& c) {
+  constexpr std::int64_t kMostBytes = 1 << 25;
+  std::array<std::int64_t, 2> length{};  // along y, z
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::size_t axis = c.axis[k + 1];
+    length[k] = v.chunk.empty() ? 1 : std::min(v.chunk[axis], v.shape[axis]);
+  }
+  const std::int64_t ny = v.shape[c.axis[1]], nz = v.shape[c.axis[2]];
+  const std::int64_t line = v.shape[c.axis[0]] * v.bytes, layer = line * ny * length[1];
+  if (layer <= kMostBytes) {
+    length[0] = ny;
+    length[1] *= std::max<std::int64_t>(1, kMostBytes / layer);
+  } else {
+    length[0] *= std::max<std::int64_t>(1, kMostBytes / (line * length[0] * length[1]));
+  }
+  std::vector<io::VolumeBox> boxes;
+  for (std::int64_t z = 0; z < nz; z += length[1])
+    for (std::int64_t y = 0; y < ny; y += length[0]) {
+      io::VolumeBox& box = boxes.emplace_back(c.all);
+      box.first[c.axis[1]] = y;
+      box.first[c.axis[2]] = z;
+      box.count[c.axis[1]] = std::min(length[0], ny - y);
+      box.count[c.axis[2]] = std::min(length[1], nz - z);
+    }
+  return boxes;
+}
+
+/// Appends the numbers of a box to the lines of the image.
+void append_box(const std::string& path, const io::VolumeInfo& v, const ChannelLayout& c,
+                const io::VolumeBox& box, std::span<const std::byte> bytes, ImageFile& file) {
+  LabelBlock block;
+  block.bytes = bytes;
+  std::vector<std::size_t> stride(box.count.size(), v.bytes);
+  for (std::size_t k = stride.size() - 1; k-- > 0;) stride[k] = stride[k + 1] * box.count[k + 1];
+  for (std::size_t k = 0; k < 3; ++k) {
+    block.stride[k] = stride[c.axis[k]];
+    block.first[k] = static_cast<int>(box.first[c.axis[k]]);
+    block.size[k] = static_cast<int>(box.count[c.axis[k]]);
+  }
+  append_labels(path, block, file.type, false, file.fill, file.rows);
 }
 
 }  // namespace
@@ -211,7 +251,7 @@ ImageFile read_hdf5(const std::string& path, const std::string& dataset,
   const std::int64_t n_channel = length(axes.channel) * length(axes.time);
   check_stack(path, file.size, n_channel);
   const std::int64_t chosen = channel.among(path, n_channel);
-  const std::size_t voxels = count_voxels(path, file.size);
+  const std::size_t voxels = prepare_rows(path, file);
   check_announced(path, static_cast<double>(voxels) * static_cast<double>(n_channel) * v.bytes,
                   v.stored, true);
   if (v.chunks_written < v.chunks)
@@ -219,11 +259,11 @@ ImageFile read_hdf5(const std::string& path, const std::string& dataset,
         fmt::format("{} has {} of its {} chunks only; the others are taken as "
                     "background",
                     v.name, v.chunks_written, v.chunks));
-  std::vector<std::byte> bytes = io::read_volume(path, v);
-  const bool plain = name.empty() && n_channel == 1;
-  if (!plain) bytes = arrange(bytes, v, axes, file, chosen);
-  file.label.reserve(voxels);
-  append_labels(path, bytes, file.type, false, file.voxels(), file.label);
+  const ChannelLayout layout = lay_out(v, axes, chosen);
+  const std::vector<io::VolumeBox> boxes = cut(v, layout);
+  io::read_volume(path, v, boxes, [&](std::size_t k, std::span<const std::byte> bytes) {
+    append_box(path, v, layout, boxes[k], bytes, file);
+  });
   return file;
 }
 

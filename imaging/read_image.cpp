@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <fstream>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -162,25 +164,77 @@ void check_announced(const std::string& path, double announced, double stored, b
                     path, announced));
 }
 
-void take_bytes(const ImageBytes& bytes, ImageFile& file) {
-  const std::size_t n = count_voxels(bytes.path, file.size), size = n * bytes_of(file.type);
-  std::string inflated;
-  std::string_view raw = bytes.stored;
-  check_announced(bytes.path, static_cast<double>(size), static_cast<double>(raw.size()),
-                  true);  // without compression the sizes are compared below
-  if (bytes.compressed) {
-    inflated = inflate_bytes(bytes.path, bytes.stored, size + bytes.skip);
-    raw = inflated;
+std::size_t prepare_rows(const std::string& path, ImageFile& file) {
+  const std::size_t n = count_voxels(path, file.size);
+  file.rows.size = file.voxels();
+  file.rows.line.resize(n / file.rows.size[0]);
+  return n;
+}
+
+void append_lines(const std::string& path, std::span<const std::byte> bytes, bool swap,
+                  std::size_t first, ImageFile& file) {
+  const Voxel& size = file.rows.size;
+  const std::size_t row = size[0] * bytes_of(file.type), n_y = size[1], n = bytes.size() / row;
+  LabelBlock block;
+  block.stride = {bytes_of(file.type), row, row * n_y};
+  for (std::size_t k = 0; k < n;) {  // whole slices at once, and the parts of slices beside them
+    const std::size_t y = (first + k) % n_y, z = (first + k) / n_y;
+    const std::size_t slices = y == 0 ? (n - k) / n_y : 0;
+    const std::size_t lines = slices > 0 ? n_y : std::min(n_y - y, n - k);
+    block.bytes = bytes.subspan(k * row);
+    block.first = {0, static_cast<int>(y), static_cast<int>(z)};
+    block.size = {size[0], static_cast<int>(lines), std::max(1, static_cast<int>(slices))};
+    append_labels(path, block, file.type, swap, file.fill, file.rows);
+    k += lines * static_cast<std::size_t>(block.size[2]);
   }
-  raw.remove_prefix(std::min(bytes.skip, raw.size()));
-  check(raw.size() == size,
+}
+
+void take_bytes(const ImageBytes& bytes, ImageFile& file) {
+  const std::uint64_t line = file.rows.size[0] * bytes_of(file.type);
+  const std::uint64_t voxels = line * file.rows.line.size();
+  const std::uint64_t all = bytes.skip + voxels + bytes.rest;
+  const std::uint64_t stored = std::filesystem::file_size(bytes.path) - bytes.from;
+  check_announced(bytes.path, static_cast<double>(voxels), static_cast<double>(stored),
+                  true);  // without compression the sizes are compared below
+  check(bytes.compressed || stored == all,
         fmt::format("{}: {} bytes of data where {} x {} x {} voxels of {} bytes are announced. The "
                     "file is truncated, or its sizes or type are wrong.",
-                    bytes.path, raw.size(), file.size[0], file.size[1], file.size[2],
+                    bytes.path, stored, file.size[0], file.size[1], file.size[2],
                     bytes_of(file.type)));
-  file.label.reserve(n);
-  append_labels(bytes.path, std::as_bytes(std::span(raw.data(), raw.size())), file.type, bytes.swap,
-                file.voxels(), file.label);
+  std::ifstream in(bytes.path, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(bytes.from));
+  const auto read_file = [&](std::span<char> out) {
+    in.read(out.data(), static_cast<std::streamsize>(out.size()));
+    check(!in.bad(), fmt::format("{}: cannot be read. Check the disk.", bytes.path),
+          Exit::kFileError);
+    return static_cast<std::size_t>(in.gcount());
+  };
+  std::optional<Inflater> inflater;
+  if (bytes.compressed) inflater.emplace(bytes.path, all, read_file);
+  const auto read = [&](std::span<char> out) {
+    if (inflater)
+      inflater->read(out);
+    else
+      check(read_file(out) == out.size(),
+            fmt::format("{}: became shorter while it was read.", bytes.path), Exit::kFileError);
+  };
+  constexpr std::uint64_t kBlock = 1 << 24;  // bytes
+  std::vector<char> buffer;
+  const auto skip = [&](std::uint64_t n) {
+    for (; n > 0; n -= buffer.size()) {
+      buffer.resize(std::min(n, kBlock));
+      read(buffer);
+    }
+  };
+  skip(bytes.skip);
+  const std::size_t most = std::max<std::uint64_t>(1, kBlock / line);
+  for (std::size_t first = 0; first < file.rows.line.size(); first += most) {
+    buffer.resize(line * std::min(most, file.rows.line.size() - first));
+    read(buffer);
+    append_lines(bytes.path, std::as_bytes(std::span(buffer)), bytes.swap, first, file);
+  }
+  skip(bytes.rest);
+  if (inflater) inflater->finish();
 }
 
 void note_axes(const Eigen::Matrix3d& axes, const std::string& named, ImageFile& file) {
@@ -197,18 +251,17 @@ void note_axes(const Eigen::Matrix3d& axes, const std::string& named, ImageFile&
                         "exchanged");
 }
 
-LabelImage read_image(const std::string& path, const ReadImage& how,
-                      std::vector<std::string>* notes) {
+LabelRows read_image(const std::string& path, const ReadImage& how,
+                     std::vector<std::string>* notes) {
   check(
       !how.voxel || how.unit == 0 || how.second,
       fmt::format("{}: --unit has no effect beside --voxel, which says all. Leave one out.", path));
   ImageFile file = read_file(path, how);
   check_stack(path, file.size);
-  LabelImage image;
-  image.size = file.voxels();
+  LabelRows image = std::move(file.rows);
+  complete_lines(file.fill, image);
   image.voxel = voxel_of(path, file, how);
   check_voxel(path, image.voxel);
-  image.label = std::move(file.label);
   image.most_label = most_of(file.type);
   if (notes != nullptr)
     for (const std::string& n : file.note) notes->push_back(fmt::format("{}: {}", path, n));

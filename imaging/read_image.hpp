@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "imaging/label_image.hpp"
+#include "imaging/label_rows.hpp"
 
 namespace acinus::imaging {
 
@@ -26,8 +26,9 @@ struct ReadImage {
 /// folders of OME-Zarr.
 /// Each statement of the file (docs/howto/images.md lists them) is followed, or `notes` gets a
 /// line. Throws Error with the path and place where something is wrong, not supported,
-/// contradictory or missing; and at a choice in `how` that has no effect.
-LabelImage read_image(const std::string& path, const ReadImage& how,
-                      std::vector<std::string>* notes = nullptr);
+/// contradictory or missing; and at a choice in `how` that has no effect. Files are read block by
+/// block: a chunk per thread, a page, or some MB are in memory beside the rows.
+LabelRows read_image(const std::string& path, const ReadImage& how,
+                     std::vector<std::string>* notes = nullptr);
 
 }  // namespace acinus::imaging

@@ -87,33 +87,33 @@ void take_meta_steps(const HeaderFields& h, ImageFile& out) {
   }
 }
 
-/// Bytes of the voxels in a data file, after HeaderSize.
-std::string_view take_stored(const HeaderFields& h, const ImageBytes& data, ImageFile& out) {
+/// First byte of the voxels in a data file, after HeaderSize.
+std::uint64_t find_start(const HeaderFields& h, const ImageBytes& data, ImageFile& out) {
   const double skip = h.number("headersize").value_or(0);
-  std::string_view stored = data.stored;
-  if (skip == 0) return stored;
-  const auto size = static_cast<double>(stored.size());
-  const auto length = static_cast<double>(count_voxels(data.path, out.size) * bytes_of(out.type));
+  if (skip == 0) return 0;
+  const auto size = static_cast<double>(std::filesystem::file_size(data.path));
+  const auto length =
+      static_cast<double>(out.rows.n_voxel()) * static_cast<double>(bytes_of(out.type));
   if (skip < 0 && data.compressed)
     h.fail("headersize", "HeaderSize = -1 (data at the end) needs data without compression");
   const double from = skip < 0 ? size - length : skip;
   if (!(from >= 0 && from <= size))
-    h.fail("headersize", fmt::format("{} has {} bytes only", data.path, stored.size()));
+    h.fail("headersize", fmt::format("{} has {:.0f} bytes only", data.path, size));
   if (skip < 0 && from > 0)
     out.note.push_back(fmt::format("HeaderSize = -1: the first {:.0f} bytes of {} are passed over",
                                    from, data.path));
-  stored.remove_prefix(static_cast<std::size_t>(from));
-  return stored;
+  return static_cast<std::uint64_t>(from);
 }
 
 /// Throws Error if CompressedDataSize is stated and differs from the size of the data.
 void check_stored(const HeaderFields& h, const ImageBytes& data) {
   const std::optional<double> size = h.number("compresseddatasize");
-  if (!size || !data.compressed || *size == static_cast<double>(data.stored.size())) return;
+  const std::uint64_t stored = std::filesystem::file_size(data.path) - data.from;
+  if (!size || !data.compressed || *size == static_cast<double>(stored)) return;
   h.fail("compresseddatasize",
          fmt::format("CompressedDataSize says {} bytes, but there are {}: the file is truncated or "
                      "damaged",
-                     *size, data.stored.size()));
+                     *size, stored));
 }
 
 void check_supported(const HeaderFields& h) {
@@ -136,7 +136,7 @@ void check_supported(const HeaderFields& h) {
 }  // namespace
 
 ImageFile read_metaimage(const std::string& path) {
-  geometry::InputFile file(path);
+  geometry::InputFile file(path, kMostHeader);
   file.skip_byte_order_mark();
   const HeaderFields h = read_meta_header(file);
   check_supported(h);
@@ -144,6 +144,7 @@ ImageFile read_metaimage(const std::string& path) {
   out.type = meta_type_of(h);
   out.size = h.sizes("dimsize");
   take_meta_steps(h, out);
+  prepare_rows(path, out);
 
   ImageBytes data;
   data.path = path;
@@ -151,7 +152,7 @@ ImageFile read_metaimage(const std::string& path) {
   data.swap = is_true(h, "binarydatabyteordermsb") || is_true(h, "elementbyteordermsb");
   const std::string name = h.text(kData);
   if (geometry::lower_case(name) == "local") {
-    data.stored = file.bytes().substr(file.position());
+    data.from = file.position();
     if (h.number("headersize").value_or(0) > 0)
       h.fail("headersize", "HeaderSize is for data in a file of their own, not for LOCAL");
     check_stored(h, data);
@@ -161,9 +162,8 @@ ImageFile read_metaimage(const std::string& path) {
   if (geometry::lower_case(name) == "list" || name.find('%') != name.npos)
     h.fail(kData, "data in a list of files are not read: write one file");
   data.path = (std::filesystem::path(path).parent_path() / name).string();
-  const geometry::InputFile raw(data.path);
-  data.stored = raw.bytes();
-  data.stored = take_stored(h, data, out);
+  const geometry::InputFile raw(data.path, 1);  // is there
+  data.from = find_start(h, data, out);
   check_stored(h, data);
   take_bytes(data, out);
   return out;

@@ -1,4 +1,4 @@
-/// Reader of NIfTI, by its own library.
+/// Reader of NIfTI: the header by its own library, the data block by block.
 
 #include <fmt/format.h>
 #include <nifti2_io.h>
@@ -143,7 +143,7 @@ ImageFile read_nifti(const std::string& path, const ChannelChoice& channel) {
   ImageFile file;
   file.type = type_of(path, *n);
   file.size = {n->nx, n->ny, n->nz};
-  const std::size_t voxels = count_voxels(path, file.size), bytes = voxels * bytes_of(file.type);
+  const std::size_t voxels = prepare_rows(path, file), bytes = voxels * bytes_of(file.type);
   check(n->nvox > 0 && static_cast<std::size_t>(n->nvox) % voxels == 0 &&
             n->nbyper == static_cast<int>(bytes_of(file.type)),
         fmt::format("{}: the header's sizes do not fit each other. Write the image again.", path));
@@ -163,12 +163,13 @@ ImageFile read_nifti(const std::string& path, const ChannelChoice& channel) {
                     path, n->scl_slope, n->scl_inter));
   take_steps(*n, file);
   file.unit = Vec3::Constant(unit_of(*n));
-  check(nifti_image_load(n.get()) == 0 && n->data != nullptr,
-        fmt::format("{}: the data cannot be read: the file is truncated or damaged.", path));
-  const auto* data = static_cast<const std::byte*>(n->data);  // in this machine's byte order
-  file.label.reserve(voxels);
-  append_labels(path, std::span(data + chosen * bytes, bytes), file.type, false, file.voxels(),
-                file.label);
+  ImageBytes data;
+  data.path = data_path;
+  data.compressed = nifti_is_gzfile(data_path.c_str()) != 0;
+  data.swap = n->byteorder != nifti_short_order();
+  data.skip = static_cast<std::uint64_t>(n->iname_offset) + chosen * bytes;
+  data.rest = (n_channel - chosen - 1) * bytes;
+  take_bytes(data, file);
   return file;
 }
 

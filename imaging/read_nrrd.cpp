@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <optional>
+#include <fstream>
+#include <limits>
+#include <span>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -149,20 +151,23 @@ void check_kinds(const HeaderFields& h) {
                                   geometry::in_quotes(kind)));
 }
 
-/// Bytes of labels that are written as text.
-std::string take_text(std::string_view text, geometry::InputFile& file, std::size_t n) {
-  file.set_position(text.data() - file.bytes().data());
-  std::string out;
-  for (std::size_t k = 0; k < n; ++k) {
-    const double value = file.next_double("a label");
-    out.append(reinterpret_cast<const char*>(&value), sizeof(value));
+/// Reads labels that are written as text.
+void take_text(const ImageBytes& data, std::size_t n, ImageFile& out) {
+  geometry::InputFile file(data.path);
+  file.set_position(data.from);
+  file.check_room(n, 2, "the header");
+  const Scalar type = std::exchange(out.type, Scalar::kF64);
+  std::vector<double> line(out.rows.size[0]);
+  for (std::size_t k = 0; k < out.rows.line.size(); ++k) {
+    for (double& value : line) value = file.next_double("a label");
+    append_lines(data.path, std::as_bytes(std::span(line)), false, k, out);
   }
+  out.type = type;
   if (!file.next_token().empty())
     file.fail(
         fmt::format("there are more than the {} labels that the header announces. The file "
                     "is damaged, or its sizes are wrong.",
                     n));
-  return out;
 }
 
 /// Path of the data file, if the header is separate.
@@ -174,11 +179,15 @@ std::string data_file_of(const HeaderFields& h) {
 }
 
 void skip_lines(const HeaderFields& h, ImageBytes& data) {
-  for (double n = h.number("line skip").value_or(0); n > 0; n -= 1) {
-    const std::size_t end = data.stored.find('\n');
-    if (end == data.stored.npos) h.fail("line skip", "the data have not so many lines");
-    data.stored.remove_prefix(end + 1);
+  const double n = h.number("line skip").value_or(0);
+  if (!(n > 0)) return;
+  std::ifstream in(data.path, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(data.from));
+  for (double k = 0; k < n; k += 1) {
+    in.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    if (!in || in.eof()) h.fail("line skip", "the data have not so many lines");
   }
+  data.from = static_cast<std::uint64_t>(in.tellg());
 }
 
 /// Skips bytes: before raw data, and at the start of decompressed data.
@@ -188,19 +197,20 @@ void skip_bytes(const HeaderFields& h, std::size_t length, ImageBytes& data, Ima
   if (skip == 0) return;
   if (!(skip >= -1 && skip <= kMost && skip == std::floor(skip)))
     h.fail("byte skip", fmt::format("byte skip is {}; -1 or a whole number is needed", skip));
+  const auto size =
+      static_cast<double>(std::filesystem::file_size(data.path)) - static_cast<double>(data.from);
   if (data.compressed) {
     if (skip < 0) h.fail("byte skip", "byte skip: -1 needs data without compression");
-    check_announced(data.path, skip, static_cast<double>(data.stored.size()), true);
-    data.skip = static_cast<std::size_t>(skip);
+    check_announced(data.path, skip, size, true);
+    data.skip = static_cast<std::uint64_t>(skip);
     return;
   }
-  const auto size = static_cast<double>(data.stored.size());
   const double from = skip < 0 ? size - static_cast<double>(length) : skip;
   if (!(from >= 0 && from <= size)) h.fail("byte skip", "byte skip: the data are shorter");
   if (skip < 0 && from > 0)
     out.note.push_back(
         fmt::format("byte skip: -1: the first {:.0f} bytes of the data are passed over", from));
-  data.stored.remove_prefix(static_cast<std::size_t>(from));
+  data.from += static_cast<std::uint64_t>(from);
 }
 
 bool is_swapped(const HeaderFields& h, Scalar type) {
@@ -214,7 +224,7 @@ bool is_swapped(const HeaderFields& h, Scalar type) {
 }  // namespace
 
 ImageFile read_nrrd(const std::string& path) {
-  geometry::InputFile file(path);
+  geometry::InputFile file(path, kMostHeader);
   const HeaderFields h = read_nrrd_header(file);
   ImageFile out;
   if (h.numbers("dimension") != std::vector<double>{3})
@@ -227,25 +237,21 @@ ImageFile read_nrrd(const std::string& path) {
   take_units(h, out);
 
   const std::string name = data_file_of(h);
-  ImageBytes data{path, file.bytes().substr(file.position()), false, false};
-  std::optional<geometry::InputFile> other;
+  ImageBytes data;
+  data.path = path;
+  data.from = file.position();
   if (!name.empty()) {
     data.path = (std::filesystem::path(path).parent_path() / name).string();
-    data.stored = other.emplace(data.path).bytes();
+    data.from = 0;
+    const geometry::InputFile other(data.path, 1);  // is there
   }
   skip_lines(h, data);
   const std::string encoding = geometry::lower_case(h.text("encoding"));
-  const std::size_t n_voxel = count_voxels(path, out.size);
+  const std::size_t n_voxel = prepare_rows(path, out);
   if (encoding == "txt" || encoding == "text" || encoding == "ascii") {
     if (h.number("byte skip").value_or(0) != 0)
       h.fail("byte skip", "byte skip is not followed in text");
-    geometry::InputFile& source = other ? *other : file;
-    source.check_room(n_voxel, 2, "the header");
-    const std::string values = take_text(data.stored, source, n_voxel);
-    data.stored = values;
-    const Scalar type = std::exchange(out.type, Scalar::kF64);
-    take_bytes(data, out);
-    out.type = type;
+    take_text(data, n_voxel, out);
     return out;
   }
   data.compressed = encoding == "gzip" || encoding == "gz";

@@ -36,7 +36,8 @@ TiffFile open_tiff(const std::string& path) {
   TIFFSetWarningHandler(nullptr);
   TIFFSetErrorHandler(keep_words);
   last_words().clear();
-  TiffFile tiff(TIFFOpen(path.c_str(), "r"));
+  // m: without a map of the file, whose pages would stay in memory.
+  TiffFile tiff(TIFFOpen(path.c_str(), "rm"));
   check(tiff != nullptr, fmt::format("{}: cannot be read as TIFF: {}", path, last_words()));
   return tiff;
 }
@@ -267,15 +268,14 @@ ImageFile read_tiff(const std::string& path, const ChannelChoice& channel) {
   file.step = text.step;
   file.unit = text.unit;
   file.step_fault = text.step_fault;
-  const std::size_t voxels = count_voxels(path, file.size);
+  const std::size_t voxels = prepare_rows(path, file);
   check_announced(path, static_cast<double>(voxels * bytes_of(file.type)), chain.stored, true);
-  file.label.reserve(voxels);
   std::vector<std::byte> rows(bytes_of(file.type) * first.width * first.height);
   for (std::int64_t slice = 0; slice < text.slices; ++slice) {
     const std::int64_t number = page_number(path, text, slice, chosen);
     open_page(path, tiff.get(), chain.page[number], number, first);
     read_page(path, tiff.get(), first, number, rows);
-    append_labels(path, rows, file.type, false, file.voxels(), file.label);
+    append_lines(path, rows, false, static_cast<std::size_t>(slice * first.height), file);
   }
   return file;
 }

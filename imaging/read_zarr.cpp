@@ -106,7 +106,7 @@ const OmeLevel& choose_level(const OmeMultiscale& m, std::int64_t level) {
   return m.level[static_cast<std::size_t>(std::max<std::int64_t>(level, 0))];
 }
 
-/// Copies chunks into the labels of an image.
+/// Appends chunks to the lines of an image.
 class ChunkPlacing {
  public:
   ChunkPlacing(const ZarrArray& array, const ZarrAxes& axes,
@@ -124,7 +124,7 @@ class ChunkPlacing {
       block.size[d] = static_cast<int>(std::min(array_.chunk[k], array_.shape[k] - chunk.first[k]));
       block.stride[d] = stride_[k];
     }
-    place_labels(chunk.place, block, file_.type, array_.encoding.swap, file_.voxels(), file_.label);
+    append_labels(chunk.place, block, file_.type, array_.encoding.swap, file_.fill, file_.rows);
   }
 
  private:
@@ -158,11 +158,11 @@ ImageFile read_zarr(const std::string& path, const ZarrChoice& choice,
   for (const std::size_t k : axes.space) fixed[k].reset();
   if (axes.channel) fixed[*axes.channel] = chosen % channels;
   if (axes.time) fixed[*axes.time] = chosen / channels;
-  constexpr double kNothingBeside = 0;  // chunks are small
-  file.label.assign(count_voxels(path, file.size, kNothingBeside), array.fill.value_or(0));
+  prepare_rows(path, file);
+  file.fill = array.fill.value_or(0);
   const ChunkPlacing placing(array, axes, fixed, file);
-  const std::int64_t found =
-      visit_chunks(array, fixed, [&](const ZarrChunk& chunk) { placing.place(chunk); });
+  const std::int64_t found = visit_chunks(array, fixed, axes.space[0],
+                                          [&](const ZarrChunk& chunk) { placing.place(chunk); });
   std::int64_t all = 1;
   for (const std::size_t k : axes.space)
     all *= (array.shape[k] + array.chunk[k] - 1) / array.chunk[k];

@@ -66,25 +66,29 @@ T value_at(std::span<const std::byte> bytes, std::size_t at, bool swap) {
   return value;
 }
 
-/// Number of values that are not labels, from a position on.
+/// Number of a voxel of a block.
 template <class T>
-std::size_t count_bad(std::span<const std::byte> bytes, bool swap) {
-  std::size_t n = 0;
-  for (std::size_t at = 0; at + sizeof(T) <= bytes.size(); at += sizeof(T))
-    n += is_label(value_at<T>(bytes, at, swap)) ? 0 : 1;
-  return n;
+T number_at(const LabelBlock& block, const Voxel& v, bool swap) {
+  return value_at<T>(
+      block.bytes,
+      block.start + v[0] * block.stride[0] + v[1] * block.stride[1] + v[2] * block.stride[2], swap);
 }
 
-/// Throws Error at a voxel that is not a label. @param more  other such voxels that were seen
+/// Throws Error at a voxel of a block that is not a label.
 template <class T>
-[[noreturn]] void fail_at_voxel(const std::string& path, T value, std::size_t more, std::size_t at,
-                                const Voxel& size) {
-  const std::size_t x = at % size[0], row = at / size[0], y = row % size[1], z = row / size[1];
+[[noreturn]] void fail_at_voxel(const std::string& place, const LabelBlock& block, bool swap,
+                                const Voxel& v) {
+  std::size_t bad = 0;
+  for (int z = 0; z < block.size[2]; ++z)
+    for (int y = 0; y < block.size[1]; ++y)
+      for (int x = 0; x < block.size[0]; ++x)
+        bad += is_label(number_at<T>(block, {x, y, z}, swap)) ? 0 : 1;
   throw Error(fmt::format(
       "{}: voxel ({}, {}, {}) holds {}{}; labels are whole numbers from 0, the background, to {}. "
       "Give the segmentation, not the picture it was made from.",
-      path, x, y, z, +value,
-      more > 0 ? fmt::format(", and at least {} more are none either", more) : "", kMostLabel));
+      place, block.first[0] + v[0], block.first[1] + v[1], block.first[2] + v[2],
+      +number_at<T>(block, v, swap),
+      bad > 1 ? fmt::format(", and at least {} more are none either", bad - 1) : "", kMostLabel));
 }
 
 }  // namespace
@@ -103,41 +107,41 @@ std::uint64_t most_of(Scalar type) {
   });
 }
 
-void append_labels(const std::string& path, std::span<const std::byte> bytes, Scalar type,
-                   bool swap, const Voxel& size, std::vector<Label>& out) {
+void append_labels(const std::string& place, const LabelBlock& block, Scalar type, bool swap,
+                   Label fill, LabelRows& out) {
   with_type(type, [&](auto t) {
     using T = decltype(t);
-    for (std::size_t at = 0; at + sizeof(T) <= bytes.size(); at += sizeof(T)) {
-      const T value = value_at<T>(bytes, at, swap);
-      if (!is_label(value))
-        fail_at_voxel(path, value, count_bad<T>(bytes.subspan(at), swap) - 1, out.size(), size);
-      out.push_back(static_cast<Label>(value));
-    }
-  });
-}
-
-void place_labels(const std::string& place, const LabelBlock& block, Scalar type, bool swap,
-                  const Voxel& size, std::span<Label> out) {
-  with_type(type, [&](auto t) {
-    using T = decltype(t);
+    std::vector<Label> label(block.size[0]);
     for (int z = 0; z < block.size[2]; ++z)
       for (int y = 0; y < block.size[1]; ++y) {
-        const std::size_t row =
-            (static_cast<std::size_t>(block.first[2] + z) * size[1] + block.first[1] + y) *
-                size[0] +
-            block.first[0];
-        std::size_t at = block.start + z * block.stride[2] + y * block.stride[1];
-        for (int x = 0; x < block.size[0]; ++x, at += block.stride[0]) {
-          const T value = value_at<T>(block.bytes, at, swap);
-          if (!is_label(value)) fail_at_voxel(place, value, 0, row + x, size);
-          out[row + x] = static_cast<Label>(value);
+        for (int x = 0; x < block.size[0]; ++x) {
+          const T value = number_at<T>(block, {x, y, z}, swap);
+          if (!is_label(value)) fail_at_voxel<T>(place, block, swap, {x, y, z});
+          label[x] = static_cast<Label>(value);
         }
+        append_voxels(block.first[0], label, fill,
+                      out.line[out.line_index(block.first[1] + y, block.first[2] + z)]);
       }
   });
+  constexpr std::size_t kCheckEvery = 1 << 22;  // voxels
+  thread_local std::size_t unchecked = 0;
+  unchecked += static_cast<std::size_t>(block.size[0]) * block.size[1] * block.size[2];
+  if (unchecked < kCheckEvery) return;
+  unchecked = 0;
+  check_memory(place, static_cast<double>(rss_bytes()), machine_memory());
 }
 
-std::size_t count_voxels(const std::string& path, const std::array<std::int64_t, 3>& size,
-                         double beside) {
+void check_memory(const std::string& place, double used, double most) {
+  constexpr double kMostShare = 0.9;
+  check(used <= kMostShare * most,
+        fmt::format(
+            "{}: labels take {:.3g} GB of memory already; this machine has {:.3g}. Rows of voxels "
+            "with one label take 8 bytes each: is it a segmentation? Remove specks, crop the "
+            "image, or make its voxels larger.",
+            place, 1e-9 * used, 1e-9 * most));
+}
+
+std::size_t count_voxels(const std::string& path, const std::array<std::int64_t, 3>& size) {
   constexpr std::int64_t kMostSide = 1 << 20;
   constexpr double kMostVoxels = 8589934592.0;
   const bool fits =
@@ -146,13 +150,12 @@ std::size_t count_voxels(const std::string& path, const std::array<std::int64_t,
   check(fits, fmt::format("{}: an image of {} x {} x {} voxels; each side must be from 1 to {}, "
                           "and all at most 2^33. Crop the image, or make its voxels larger.",
                           path, size[0], size[1], size[2], kMostSide));
-  const double bytes = sizeof(Label) + beside;
-  const double voxels = 1.0 * size[0] * size[1] * size[2], memory = machine_memory();
-  check(bytes * voxels <= memory,
-        fmt::format(
-            "{}: an image of {} x {} x {} voxels may take {:.3g} GB; this machine has {:.3g}. "
-            "Crop the image, or make its voxels larger.",
-            path, size[0], size[1], size[2], 1e-9 * bytes * voxels, 1e-9 * memory));
+  constexpr double kLeastBytes = sizeof(LabelLine) + 32;  // of a line with one row
+  const double bytes = kLeastBytes * size[1] * size[2], memory = machine_memory();
+  check(bytes <= memory,
+        fmt::format("{}: {} x {} lines along x take {:.3g} GB or more; this machine has {:.3g}. "
+                    "Crop the image, or make its voxels larger.",
+                    path, size[1], size[2], 1e-9 * bytes, 1e-9 * memory));
   return size[0] * size[1] * size[2];
 }
 

@@ -176,7 +176,6 @@ VoxelisedBodies voxelise(std::span<const geometry::Surface> bodies, const Voxeli
   }
   for (std::size_t k = 0; k < n_voxel; ++k)
     if (1 - sum[k] > largest[k]) out.image.label[k] = 0;
-  out.image.most_label = most_of(Scalar::kU32);
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel/threads.hpp"
@@ -46,9 +47,11 @@ BlockRange blocks(const Index& origin, const Index& extent, const Index& length,
 
 std::string path_of(const ZarrArray& a, const Index& block) {
   std::string key = a.prefix;
-  for (const std::int64_t k : block)
-    key += (key.empty() ? "" : std::string(1, a.separator)) + std::to_string(k);
-  return a.folder + "/" + key;
+  for (const std::int64_t k : block) {
+    if (!key.empty()) key += a.separator;
+    key += std::to_string(k);
+  }
+  return fmt::format("{}/{}", a.folder, key);
 }
 
 /// File of chunks, opened; nothing where it is not stored.
@@ -116,10 +119,13 @@ class ChunkVisit {
              const std::function<void(const ZarrChunk&)>& visit)
       : a_(a), fixed_(fixed), visit_(visit), bytes_(bytes_of_chunk(a)) {}
 
-  std::int64_t run() {
-    const BlockRange files = blocks(Index(a_.shape.size(), 0), a_.shape, a_.file_length(), fixed_);
-    for_each_index(static_cast<std::size_t>(files.size()), true,
-                   [&](std::size_t k) { read_file(files.at(static_cast<std::int64_t>(k))); });
+  std::int64_t run(std::size_t ordered) {
+    BlockRange files = blocks(Index(a_.shape.size(), 0), a_.shape, a_.file_length(), fixed_);
+    const std::int64_t n = std::exchange(files.count[ordered], 1);
+    for_each_index(static_cast<std::size_t>(files.size()), true, [&](std::size_t k) {
+      Index block = files.at(static_cast<std::int64_t>(k));
+      for (std::int64_t i = 0; i < n; ++i, ++block[ordered]) read_file(block);
+    });
     return n_;
   }
 
@@ -176,9 +182,9 @@ class ChunkVisit {
 }  // namespace
 
 std::int64_t visit_chunks(const ZarrArray& array,
-                          std::span<const std::optional<std::int64_t>> fixed,
+                          std::span<const std::optional<std::int64_t>> fixed, std::size_t ordered,
                           const std::function<void(const ZarrChunk&)>& visit) {
-  return ChunkVisit(array, fixed, visit).run();
+  return ChunkVisit(array, fixed, visit).run(ordered);
 }
 
 std::vector<std::size_t> chunk_strides(const ZarrArray& array) {

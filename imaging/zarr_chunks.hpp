@@ -19,12 +19,14 @@ struct ZarrChunk {
   std::string bytes;
 };
 
-/// Calls visit for every chunk that is stored, by several threads at once, in no order.
-/// @param fixed  by axis: the only index that is asked for; nothing: all
+/// Calls visit for every chunk that is stored, by several threads at once. Chunks that differ along
+/// one axis only come one after the other, ascending; all others in no order.
+/// @param fixed    by axis: the only index that is asked for; nothing: all
+/// @param ordered  that axis
 /// @return number of chunks visited
 /// Throws Error at files that cannot be read, damaged chunks and shards, and whatever visit throws.
 std::int64_t visit_chunks(const ZarrArray& array,
-                          std::span<const std::optional<std::int64_t>> fixed,
+                          std::span<const std::optional<std::int64_t>> fixed, std::size_t ordered,
                           const std::function<void(const ZarrChunk&)>& visit);
 
 /// Distances of neighbouring numbers of a chunk along each axis, bytes.

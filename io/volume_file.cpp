@@ -94,6 +94,7 @@ void read_storage(const h5::Handle& dataset, const h5::Handle& space, double fil
   std::vector<hsize_t> chunk(rank), now(rank), most(rank);
   H5Pget_chunk(list.id(), static_cast<int>(rank), chunk.data());
   H5Sget_simple_extent_dims(space.id(), now.data(), most.data());
+  v.chunk.assign(chunk.begin(), chunk.end());
   double chunks = 1;
   for (std::size_t k = 0; k < rank; ++k) {
     if (chunk[k] == 0) return;
@@ -193,17 +194,28 @@ std::vector<VolumeInfo> list_volumes(const std::string& path) {
   return std::move(visit.found);
 }
 
-std::vector<std::byte> read_volume(const std::string& path, const VolumeInfo& volume) {
+void read_volume(const std::string& path, const VolumeInfo& volume,
+                 std::span<const VolumeBox> boxes,
+                 const std::function<void(std::size_t, std::span<const std::byte>)>& visit) {
   const h5::File file = open(path);
   const h5::Handle dataset(H5Dopen2(file.id(), volume.name.c_str(), H5P_DEFAULT), H5Dclose);
   if (!dataset.valid()) fail(path, "open dataset " + volume.name);
   const h5::Handle type = native_type_of(dataset);
-  const std::int64_t n =
-      std::accumulate(volume.shape.begin(), volume.shape.end(), std::int64_t{1}, std::multiplies());
-  std::vector<std::byte> bytes(n * volume.bytes);
-  if (H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)
-    fail(path, "read dataset " + volume.name);
-  return bytes;
+  const h5::Handle space(H5Dget_space(dataset.id()), H5Sclose);
+  std::vector<std::byte> bytes;
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    const std::vector<hsize_t> first(boxes[k].first.begin(), boxes[k].first.end()),
+        count(boxes[k].count.begin(), boxes[k].count.end());
+    bytes.resize(std::accumulate(count.begin(), count.end(), std::size_t{1}, std::multiplies()) *
+                 volume.bytes);
+    const h5::Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr),
+                            H5Sclose);
+    if (H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, first.data(), nullptr, count.data(),
+                            nullptr) < 0 ||
+        H5Dread(dataset.id(), type.id(), memory.id(), space.id(), H5P_DEFAULT, bytes.data()) < 0)
+      fail(path, "read dataset " + volume.name);
+    visit(k, bytes);
+  }
 }
 
 }  // namespace acinus::io

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,7 @@ struct VolumeInfo {
   std::vector<std::string> codec;       ///< names of filters that the library here cannot undo
   /// Size of the numbers in the file, bytes; 0: none were ever written.
   double stored = 0;
+  std::vector<std::int64_t> chunk;  ///< numbers of a chunk along each axis; empty: not in chunks
   std::int64_t chunks = 0, chunks_written = 0;  ///< chunks that are not written read as 0
   std::string fault;  ///< contradiction between shape and storage; empty: none
 };
@@ -29,8 +32,15 @@ struct VolumeInfo {
 /// file is not HDF5, truncated or damaged.
 std::vector<VolumeInfo> list_volumes(const std::string& path);
 
-/// Reads the numbers of one volume, in this machine's byte order. Throws Error(kFileError) if they
-/// cannot be read.
-std::vector<std::byte> read_volume(const std::string& path, const VolumeInfo& volume);
+/// Box of a volume, in the order of the shape.
+struct VolumeBox {
+  std::vector<std::int64_t> first, count;
+};
+
+/// Reads the numbers in boxes of one volume, in this machine's byte order, one after the other, and
+/// calls visit(number of the box, its numbers). Throws Error(kFileError) if they cannot be read.
+void read_volume(const std::string& path, const VolumeInfo& volume,
+                 std::span<const VolumeBox> boxes,
+                 const std::function<void(std::size_t, std::span<const std::byte>)>& visit);
 
 }  // namespace acinus::io

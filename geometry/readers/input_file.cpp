@@ -26,7 +26,7 @@ std::string_view strip_plus(std::string_view token) {
 
 }  // namespace
 
-InputFile::InputFile(std::string path) : path_(std::move(path)) {
+InputFile::InputFile(std::string path, std::size_t most) : path_(std::move(path)) {
   std::error_code ignored;
   const auto status = std::filesystem::status(path_, ignored);
   check(std::filesystem::exists(status),
@@ -38,7 +38,7 @@ InputFile::InputFile(std::string path) : path_(std::move(path)) {
                     path_));
   std::ifstream stream(path_, std::ios::binary);
   check(stream.good(), fmt::format("{}: cannot be opened. Check its permissions.", path_));
-  const auto size = std::filesystem::file_size(path_, ignored);
+  const auto size = std::min<std::uintmax_t>(std::filesystem::file_size(path_, ignored), most);
   check(!ignored, fmt::format("{}: cannot be read. Check its permissions.", path_));
   bytes_.resize(size);
   stream.read(bytes_.data(), static_cast<std::streamsize>(size));

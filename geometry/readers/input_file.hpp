@@ -10,14 +10,15 @@
 
 namespace acinus::geometry {
 
-/// Input file, read whole at construction; the cursor then moves over its bytes. Tokens are
+/// Input file, read at construction; the cursor then moves over its bytes. Tokens are
 /// separated by white space. All failures throw Error (Exit::kBadInput) that begins "file:line:"
 /// for text and "file: byte N:" once set_binary(true) was called.
 class InputFile {
  public:
-  /// Reads a file. Throws Error when the path does not exist, is not a regular file or cannot be
-  /// read.
-  explicit InputFile(std::string path);
+  /// Reads a file, or its first bytes. Throws Error when the path does not exist, is not a regular
+  /// file or cannot be read.
+  /// @param most  number of bytes to read, where only a header is of interest
+  explicit InputFile(std::string path, std::size_t most = std::string::npos);
 
   const std::string& path() const { return path_; }
   std::string_view bytes() const { return bytes_; }

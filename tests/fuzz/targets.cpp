@@ -96,10 +96,12 @@ void read_surface(const std::string& path) {
 }
 
 void read_image(const std::string& path) {
-  const imaging::LabelImage image = imaging::read_image(path, {.voxel = Vec3(1, 1, 1)});
+  const imaging::LabelRows image = imaging::read_image(path, {.voxel = Vec3(1, 1, 1)});
   const auto& [x, y, z] = image.size;
-  must(x > 0 && y > 0 && z > 0 && image.label.size() == static_cast<std::size_t>(x) * y * z,
+  must(x > 0 && y > 0 && z > 0 && image.line.size() == static_cast<std::size_t>(y) * z,
        "an image of another size");
+  for (const imaging::LabelLine& line : image.line)
+    must(!line.empty() && line.back().end == x, "a line that ends early");
   must(image.voxel.allFinite() && image.voxel.minCoeff() > 0, "voxels without a size");
 }
 imaging::LabelImage make_labels() {

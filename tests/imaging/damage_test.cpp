@@ -41,7 +41,7 @@ struct Content {
 
 Content image_content(const std::string& path) {
   std::vector<std::string> notes;
-  const LabelImage i = imaging::read_image(path, {}, &notes);
+  const LabelImage i = imaging::read_labels(path, {}, &notes);
   std::string data = fmt::format("{} {} {}", i.voxel[0], i.voxel[1], i.voxel[2]);
   data.append(reinterpret_cast<const char*>(i.label.data()), 4 * i.label.size());
   return {fmt::format("{} x {} x {}", i.size[0], i.size[1], i.size[2]), data, !notes.empty()};
@@ -119,7 +119,7 @@ std::vector<Format> images(const TempFolder& folder) {
                                      "<TiffData/></Pixels></Image></OME>"}),
        image_content});
   all.push_back({"plain.tif", imaging::tiff(i), [](const std::string& path) {
-                   const LabelImage found = imaging::read_image(path, {.voxel = Vec3(1, 1, 2)});
+                   const LabelImage found = imaging::read_labels(path, {.voxel = Vec3(1, 1, 2)});
                    Content c{
                        fmt::format("{} x {} x {}", found.size[0], found.size[1], found.size[2]), "",
                        false};

@@ -5,8 +5,10 @@
 #include <cstring>
 #include <functional>
 #include <string>
+#include <vector>
 
-#include "imaging/label_image.hpp"
+#include "core/error.hpp"
+#include "imaging/label_rows.hpp"
 #include "imaging/read_image.hpp"
 #include "tests/geometry/temp_folder.hpp"
 
@@ -22,6 +24,24 @@ inline LabelImage make_image(const Voxel& size, const Vec3& voxel,
     for (int y = 0; y < size[1]; ++y)
       for (int x = 0; x < size[0]; ++x) image.label.push_back(label(image.center({x, y, z})));
   return image;
+}
+
+/// Image with a number per voxel. Throws if a line is not complete.
+inline LabelImage spread_rows(const LabelRows& rows) {
+  LabelImage image{rows, {}};
+  image.label.reserve(image.n_voxel());
+  for (const LabelLine& line : rows.line) {
+    check(!line.empty() && line.back().end == rows.size[0], "a line ends early");
+    for (std::size_t k = 0; k < line.size(); ++k)
+      image.label.insert(image.label.end(), line[k].end - first_of(line, k), line[k].label);
+  }
+  return image;
+}
+
+/// Labels of a file, a number per voxel.
+inline LabelImage read_labels(const std::string& path, const ReadImage& how = {},
+                              std::vector<std::string>* notes = nullptr) {
+  return spread_rows(read_image(path, how, notes));
 }
 
 /// Labels as numbers of a type, one after another.

@@ -13,8 +13,9 @@ namespace acinus::imaging {
 namespace {
 
 LabelSurface surface_of(const LabelImage& image, double edge) {
-  const Pieces pieces = find_pieces(image);
-  return make_label_surface(image, pieces.piece.front(), edge, 0.7);
+  const LabelRows rows = make_rows(image);
+  const Pieces pieces = find_pieces(rows);
+  return make_label_surface(rows, pieces.piece.front(), edge, 0.7);
 }
 
 TEST(LabelSurface, OfABallIsABallOfTheVolumeOfItsVoxels) {

@@ -47,7 +47,8 @@ TEST(FindPieces, FindsWhatFloodingFinds) {
   for (int repeat = 0; repeat < 20; ++repeat) {
     const LabelImage image =
         make_image({11, 7, 9}, Vec3::Ones(), [&](const Vec3&) { return Label(random() % 3); });
-    const Pieces pieces = find_pieces(image);
+    const LabelRows rows = make_rows(image);
+    const Pieces pieces = find_pieces(rows);
     std::multiset<std::pair<Label, std::size_t>> found;
     for (const Piece& p : pieces.piece) found.emplace(p.label, p.n_voxel);
     EXPECT_EQ(found, flood(image));
@@ -55,7 +56,12 @@ TEST(FindPieces, FindsWhatFloodingFinds) {
       return a.label != b.label ? a.label < b.label : a.n_voxel > b.n_voxel;
     }));
     std::vector<std::size_t> n(pieces.piece.size(), 0);
-    for (const PieceRow& row : pieces.row) n[row.piece] += row.length;
+    std::size_t row = 0;
+    for (const LabelLine& line : rows.line)
+      for (std::size_t k = 0; k < line.size(); ++k, ++row) {
+        EXPECT_EQ(pieces.of_row[row] < 0, line[k].label == 0);
+        if (pieces.of_row[row] >= 0) n[pieces.of_row[row]] += line[k].end - first_of(line, k);
+      }
     for (std::size_t k = 0; k < n.size(); ++k) EXPECT_EQ(n[k], pieces.piece[k].n_voxel);
   }
 }
@@ -65,7 +71,7 @@ TEST(FindPieces, KnowsBoxCentreAndBorder) {
     if (x[0] > 1 && x[0] < 3 && x[1] > 4 && x[1] < 6 && x[2] > 6 && x[2] < 12) return Label{7};
     return Label(x[2] > 18 ? 3 : 0);
   });
-  const Pieces pieces = find_pieces(image);
+  const Pieces pieces = find_pieces(make_rows(image));
   ASSERT_EQ(pieces.piece.size(), 2u);
   EXPECT_TRUE(pieces.piece[0].at_border);
   const Piece& p = pieces.piece[1];
@@ -80,8 +86,8 @@ TEST(FindTouching, CountsFaces) {
   const LabelImage image = make_image({6, 4, 4}, Vec3::Ones(), [](const Vec3& x) {
     return x[0] < 2 ? Label{1} : x[0] < 4 ? Label{2} : Label{0};
   });
-  EXPECT_EQ(find_touching(image, 16), (std::vector<std::array<Label, 2>>{{1, 2}}));
-  EXPECT_TRUE(find_touching(image, 17).empty());
+  EXPECT_EQ(find_touching(make_rows(image), 16), (std::vector<std::array<Label, 2>>{{1, 2}}));
+  EXPECT_TRUE(find_touching(make_rows(image), 17).empty());
 }
 
 }  // namespace

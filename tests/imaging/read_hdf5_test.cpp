@@ -52,7 +52,7 @@ class ReadHdf5 : public testing::Test {
   LabelImage read(const Hdf5Dataset& d, const ReadImage& how = {}) {
     write_dataset(path(), d);
     notes_.clear();
-    return read_image(path(), how, &notes_);
+    return read_labels(path(), how, &notes_);
   }
   std::string refused(const Hdf5Dataset& d, const ReadImage& how = {}) {
     write_dataset(path(), d);

@@ -39,9 +39,11 @@ TEST(ReadImage, GivesBackWhatWasWritten) {
       const LabelImage image = numbered(step);
       const std::string path = folder.path() + "/" + name;
       write_image(path, image);
-      const LabelImage found = read_image(path, {});
+      const LabelImage found = read_labels(path);
       expect_image(found, image);
-      EXPECT_EQ(found.most_label, step == 1 ? 255u : step == 300 ? 65535u : 4294967295u);
+      EXPECT_EQ(read_image(path, {}).most_label, step == 1     ? 255u
+                                                 : step == 300 ? 65535u
+                                                               : 4294967295u);
     }
 }
 
@@ -57,7 +59,7 @@ TEST(ReadImage, ReadsMetaImagesOfOthers) {
   const std::string message = refusal(path);
   EXPECT_CONTAINS(message, "without a unit");
   EXPECT_CONTAINS(message, "--unit");
-  expect_image(read_image(path, {.unit = 1}), image);
+  expect_image(read_labels(path, {.unit = 1}), image);
   EXPECT_NEAR(read_image(path, {.unit = 100}).voxel[2], 150, 1e-9);
   EXPECT_CONTAINS(
       refusal(folder.write("a.mhd", "ObjectType = Image\nNDims = 2\nElementDataFile = x\n")),
@@ -83,23 +85,24 @@ TEST(ReadImage, ReadsNrrdOfOthers) {
       "space: left-posterior-superior\nspace directions: (0.0005,0,0) (0,0.00025,0) (0,0,0.0015)\n"
       "space units: \"mm\" \"mm\" \"mm\"\nencoding: gzip\n\n" +
           deflate_bytes(image_bytes<std::uint8_t>(image), true));
-  expect_image(read_image(path, {}), image);
+  expect_image(read_labels(path, {}), image);
   std::string text;
   for (const Label l : image.label) text += fmt::format("{} ", l);
   expect_image(
-      read_image(folder.write("text.nrrd",
-                              "NRRD0004\ntype: short\ndimension: 3\nsizes: 5 4 3\nspacings: "
-                              "0.5 0.25 1.5\nencoding: ascii\n\n" +
-                                  text),
-                 {.unit = 1}),
+      read_labels(folder.write("text.nrrd",
+                               "NRRD0004\ntype: short\ndimension: 3\nsizes: 5 4 3\nspacings: "
+                               "0.5 0.25 1.5\nencoding: ascii\n\n" +
+                                   text),
+                  {.unit = 1}),
       image);
   folder.write("big.raw", image_bytes<std::int32_t>(image, true));
-  expect_image(read_image(folder.write("other.nhdr",
-                                       "NRRD0004\ntype: int\ndimension: 3\nsizes: 5 4 3\nspacings: "
-                                       "0.5 0.25 1.5\nunits: \"um\" \"um\" \"um\"\nendian: big\n"
-                                       "encoding: raw\ndata file: big.raw\n"),
-                          {}),
-               image);
+  expect_image(
+      read_labels(folder.write("other.nhdr",
+                               "NRRD0004\ntype: int\ndimension: 3\nsizes: 5 4 3\nspacings: "
+                               "0.5 0.25 1.5\nunits: \"um\" \"um\" \"um\"\nendian: big\n"
+                               "encoding: raw\ndata file: big.raw\n"),
+                  {}),
+      image);
   EXPECT_CONTAINS(refusal(folder.write("a.nrrd", "NRRD0004\ntype: uint8\ndimension: 4\n\n")),
                   "has \"4\" dimensions");
   EXPECT_CONTAINS(refusal(folder.write("b.nrrd", "PNG")), "does not begin with NRRD000");
@@ -108,8 +111,8 @@ TEST(ReadImage, ReadsNrrdOfOthers) {
 TEST(ReadImage, ReadsNifti) {
   const TempFolder folder;
   const LabelImage image = numbered(300);
-  expect_image(read_image(folder.write("image.nii", nifti(image, 3)), {}), image);
-  expect_image(read_image(folder.write("image.nii.gz", deflate_bytes(nifti(image, 3), true)), {}),
+  expect_image(read_labels(folder.write("image.nii", nifti(image, 3)), {}), image);
+  expect_image(read_labels(folder.write("image.nii.gz", deflate_bytes(nifti(image, 3), true)), {}),
                image);
   EXPECT_NEAR(
       read_image(folder.write("mm.nii", nifti(image, 2)), {.voxel = Vec3(1, 2, 3)}).voxel[1], 2,
@@ -152,11 +155,11 @@ TEST(ReadImage, ReadsHdf5) {
   const LabelImage image = numbered(300);
   const std::string path = folder.path() + "/image.h5";
   write_hdf5(path, "labels", image, true, true);
-  expect_image(read_image(path, {}), image);
+  expect_image(read_labels(path, {}), image);
   write_hdf5(path, "other", image, false, false);
   EXPECT_CONTAINS(refusal(path), "--dataset one of /labels, /other");
   EXPECT_CONTAINS(refusal(path, {.dataset = "other"}), "--voxel");
-  expect_image(read_image(path, {.dataset = "other", .voxel = image.voxel}), image);
+  expect_image(read_labels(path, {.dataset = "other", .voxel = image.voxel}), image);
   EXPECT_CONTAINS(refusal(path, {.dataset = "no"}), "there are /labels, /other");
 }
 

@@ -27,7 +27,7 @@ class ReadZarr : public testing::Test {
   LabelImage read(const ZarrForm& form, const ReadImage& how = {}) {
     write_zarr(path(), image_, form);
     notes_.clear();
-    return read_image(path(), how, &notes_);
+    return read_labels(path(), how, &notes_);
   }
   std::string path() const { return folder_.path() + "/a.zarr"; }
 
@@ -104,7 +104,7 @@ TEST_F(ReadZarr, TakesTheOrderOfAxesAndChannels) {
   const ZarrForm form{.axes = "tczyx", .length = {2, 3}};
   write_zarr(path(), image_, form);
   EXPECT_CONTAINS(refusal(path()), "has 6 channels or times. Say which ... --channel 0 to 5");
-  const LabelImage found = read_image(path(), {.channel = 5});  // c 2, t 1
+  const LabelImage found = read_labels(path(), {.channel = 5});  // c 2, t 1
   EXPECT_EQ(found.label.front(), image_.label.front() + 12000);
   EXPECT_EQ(found.label.back(), image_.label.back() + 12000);
 }
@@ -123,7 +123,7 @@ TEST_F(ReadZarr, TakesScalesAndUnits) {
   form.unit = "";
   write_zarr(path(), image_, form);
   EXPECT_CONTAINS(refusal(path()), "its voxels are 5 x 10 x 200, without a unit");
-  EXPECT_EQ(read_image(path(), {.unit = 0.1}).voxel, Vec3(0.5, 1, 20));
+  EXPECT_EQ(read_labels(path(), {.unit = 0.1}).voxel, Vec3(0.5, 1, 20));
 }
 
 TEST_F(ReadZarr, ChoosesTheLevel) {
@@ -137,8 +137,8 @@ TEST_F(ReadZarr, ChoosesTheLevel) {
         multiscales(form, {"fine", "coarse"}, {scale_of(image_, form), scale_of(coarse, form)}));
     zarr::Writer(image_, form).write(path() + "/fine");
     zarr::Writer(coarse, form).write(path() + "/coarse");
-    EXPECT_EQ(read_image(path(), {}).label, image_.label);
-    const LabelImage found = read_image(path(), {.level = 1});
+    EXPECT_EQ(read_labels(path(), {}).label, image_.label);
+    const LabelImage found = read_labels(path(), {.level = 1});
     EXPECT_EQ(found.label, coarse.label);
     EXPECT_EQ(found.voxel, coarse.voxel);
     EXPECT_CONTAINS(refusal(path(), {.level = 2}), "--level 2: the image has 2 levels");
@@ -154,18 +154,18 @@ TEST_F(ReadZarr, ChoosesTheLabelImage) {
     write_zarr(path(), image_, form);  // the picture
     write_zarr(path() + "/labels/cells", image_, form);
     write_group(path() + "/labels", version, R"("labels": ["cells"])");
-    EXPECT_EQ(read_image(path(), {}).label, image_.label);
-    EXPECT_EQ(read_image(path() + "/", {}).label, image_.label);
-    EXPECT_EQ(read_image(path() + "/labels", {}).label, image_.label);
-    EXPECT_EQ(read_image(path() + "/labels/cells", {}).label, image_.label);
+    EXPECT_EQ(read_labels(path(), {}).label, image_.label);
+    EXPECT_EQ(read_labels(path() + "/", {}).label, image_.label);
+    EXPECT_EQ(read_labels(path() + "/labels", {}).label, image_.label);
+    EXPECT_EQ(read_labels(path() + "/labels/cells", {}).label, image_.label);
     LabelImage nuclei = image_;
     for (Label& l : nuclei.label) l += 1;
     write_zarr(path() + "/labels/nuclei", nuclei, form);
     write_group(path() + "/labels", version, R"("labels": ["cells", "nuclei"])");
     EXPECT_CONTAINS(refusal(path()),
                     "has 2 label images. Say which: --dataset one of cells, nuclei");
-    EXPECT_EQ(read_image(path(), {.dataset = "nuclei"}).label, nuclei.label);
-    EXPECT_EQ(read_image(path(), {.dataset = "labels/nuclei"}).label, nuclei.label);
+    EXPECT_EQ(read_labels(path(), {.dataset = "nuclei"}).label, nuclei.label);
+    EXPECT_EQ(read_labels(path(), {.dataset = "labels/nuclei"}).label, nuclei.label);
     EXPECT_CONTAINS(refusal(path(), {.dataset = "tails"}),
                     "there is no such folder; its labels are cells, nuclei");
   }
@@ -191,7 +191,7 @@ TEST_F(ReadZarr, NotesPicturesThatMayBeNoLabels) {
   std::string without = text.str();
   without.replace(without.find("image-label"), 11, "image-other");
   zarr::write_file(file, without);
-  read_image(path(), {}, &notes_);
+  read_labels(path(), {}, &notes_);
   ASSERT_EQ(notes_.size(), 1u);
   EXPECT_CONTAINS(notes_[0], "do not say that this is a label image");
 }

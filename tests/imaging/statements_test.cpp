@@ -30,7 +30,7 @@ class Statements : public testing::Test {
   /// Writes a file and reads it.
   LabelImage read(const std::string& name, const std::string& bytes, const ReadImage& how = {}) {
     notes_.clear();
-    return read_image(folder_.write(name, bytes), how, &notes_);
+    return read_labels(folder_.write(name, bytes), how, &notes_);
   }
   std::string refusal(const std::string& name, const std::string& bytes,
                       const ReadImage& how = {}) {

@@ -172,7 +172,7 @@ TEST_F(ZarrErrors, DamagedFilesAreRefusedOrRead) {
   int refused = 0, read = 0;
   const auto attempt = [&] {
     try {
-      const LabelImage found = read_image(path(), {});
+      const LabelImage found = read_labels(path(), {});
       EXPECT_EQ(found.label.size(),
                 static_cast<std::size_t>(found.size[0]) * found.size[1] * found.size[2]);
       ++read;
@@ -206,7 +206,7 @@ TEST_F(ZarrErrors, DamagedFilesAreRefusedOrRead) {
       }
       zarr::write_file(file, whole);
     }
-    EXPECT_EQ(read_image(path(), {}).label, image_.label);
+    EXPECT_EQ(read_labels(path(), {}).label, image_.label);
   }
   fmt::print("{} refused, {} read\n", refused, read);
   EXPECT_GT(refused, 300);
