@@ -11,6 +11,8 @@ usage: ./acinus.sh COMMAND [ARGUMENT...]
   build                     build everything, run nothing
   python [test]             build the Python module beside the build folder and say how to use it,
                             or run its tests and the notebooks
+  deb                       build the programs and a Debian package of them in the build folder, and
+                            print its path
   packages                  install missing Debian packages, nothing else
   help                      this text
   anything else             build the program and hand all arguments to it, in the folder you are
@@ -232,6 +234,15 @@ case ${1:-help} in
     [[ $# -eq 1 ]] || die "python takes nothing or the word test"
     prepare acinus_python
     printf 'export PYTHONPATH=%q\n' "$build/python"
+    ;;
+  deb)
+    [[ $# -eq 1 ]] || die "deb takes no arguments"
+    prepare acinus acinus-bench
+    lock
+    start_log
+    rm -f -- "$build"/acinus_*.deb
+    (cd -- "$build" && cpack -G DEB) >>"$log" 2>&1 </dev/null || show_log_and_die "cpack failed"
+    printf '%s\n' "$build"/acinus_*.deb
     ;;
   bench)
     prepare acinus acinus-bench

@@ -1,5 +1,5 @@
-# `cmake --install`: programs, shipped scenes, and core to calibration as a CMake package
-# (find_package(acinus), targets acinus::core .. acinus::calibration). `cpack` makes a Debian package.
+# `cmake --install`: programs, shipped scenes, the Python reader, and core to calibration as a CMake package
+# (find_package(acinus), targets acinus::core .. acinus::calibration). `./acinus.sh deb` makes a Debian package by cpack.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/acinus)
@@ -10,6 +10,10 @@ if(ACINUS_BENCH)
 endif()
 install(DIRECTORY runs/scenes runs/studies runs/laws DESTINATION ${CMAKE_INSTALL_DATADIR}/acinus)
 install(FILES LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)  # the name that Debian expects
+install(DIRECTORY docs/examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# Where Debian's Python looks; elsewhere this folder goes into PYTHONPATH.
+install(DIRECTORY python/acinus DESTINATION lib/python3/dist-packages FILES_MATCHING PATTERN "*.py" PATTERN "py.typed")
 
 set(installed core geometry solve substances io contact imaging dcm cbm coupling calibration)
 foreach(library ${installed})
@@ -32,6 +36,8 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Simulator of living tissue: deformable ce
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "openmpi-bin, python3-h5py, python3-numpy")  # several processes, the reader
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 # For those who build against the library, all that cmake/acinus-config.cmake looks for and the link line names:
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, pkgconf, libblosc-dev, libeigen3-dev, libfmt-dev, libgmp-dev, libhdf5-dev, libmpfr-dev, libopenmpi-dev, libtrilinos-zoltan-dev, libxxhash-dev, libzstd-dev, nlohmann-json3-dev")
 set(CPACK_STRIP_FILES ON)

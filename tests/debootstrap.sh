@@ -146,7 +146,7 @@ mapfile -t commands < <(
 for command in "${commands[@]}"; do
   timed "$command" inside "$builder" "cd /root/acinus && $command"
 done
-timed "cpack" inside "$builder" "cd /root/acinus/build && cpack -G DEB"
+timed "./acinus.sh deb" inside "$builder" "cd /root/acinus && ./acinus.sh deb"
 
 # ---- second root: the package alone ---------------------------------------------------------
 

@@ -6,6 +6,7 @@
     run.cells(frame=-1)["pressure"]    # kPa
     run.observables()                  # what the experiment measures, over time
 
+    acinus.call_program("run", "two_cells")   # the program, from PATH or $ACINUS
     sim = acinus.Simulation("two_cells")  # steps a scene; needs what `./acinus.sh python` builds
     sim.run(until="10 min")
 
@@ -15,10 +16,12 @@ from acinus.errors import AcinusError, BadInput, CannotContinue, Damaged, FileEr
 from acinus.frame import DEFORMABLE, NUCLEUS, SPHERE, VESSEL, Frame, Spheres
 from acinus.law import Law
 from acinus.lineage import Lineage
+from acinus.program import call_program, find_program
 from acinus.run import Run
 from acinus.simulation import Simulation, calibrate, compare, simulate
 from acinus.study import Study
 from acinus.tables import Table
 
 __all__ = ["AcinusError", "BadInput", "CannotContinue", "DEFORMABLE", "Damaged", "FileError", "Frame", "Law", "Lineage", "NUCLEUS",
-           "NoSuchItem", "NotFound", "Run", "SPHERE", "Simulation", "Spheres", "Study", "Table", "VESSEL", "calibrate", "compare", "simulate"]
+           "NoSuchItem", "NotFound", "Run", "SPHERE", "Simulation", "Spheres", "Study", "Table", "VESSEL", "calibrate", "call_program",
+           "compare", "find_program", "simulate"]

@@ -22,8 +22,12 @@ def main(words=None):
     one.add_argument("output", help="folder, or one output*.xml")
     one.add_argument("scene", help="JSON file to write")
     one.add_argument("--model", choices=("cbm", "dcm"), default="cbm", help="spheres (default) or deformable cells")
+    one = commands.add_parser("program", help="the program itself, from PATH or $ACINUS: python3 -m acinus program run two_cells")
+    one.add_argument("words", nargs=argparse.REMAINDER)
     a = parser.parse_args(words)
     try:
+        if a.command == "program":
+            return acinus.call_program(*a.words).returncode
         if a.command == "simularium":
             print(write_simularium(acinus.Run(a.run), a.file, a.frames))
         elif a.command == "physicell-law":

@@ -36,6 +36,17 @@ class Package(unittest.TestCase):
             said = subprocess.run([sys.executable, "-c", "import acinus; print(acinus.__file__)"], capture_output=True,
                                   text=True, env={"PYTHONPATH": str(root / "site")}, cwd=root, check=True).stdout
             self.assertIn(str(root / "site"), said)
+            # It calls a program from PATH or $ACINUS, and says what is missing where there is none.
+            program = root / "program"
+            program.write_text("#!/bin/sh\necho called: $*\nexit 3\n")
+            program.chmod(0o755)
+            call = [sys.executable, "-m", "acinus", "program", "run", "two_cells", "--until", "1 s"]
+            there = subprocess.run(call, capture_output=True, text=True, cwd=root,
+                                   env={"PYTHONPATH": str(root / "site"), "ACINUS": str(program)})
+            self.assertEqual((there.returncode, there.stdout), (3, "called: run two_cells --until 1 s\n"))
+            missing = subprocess.run(call, capture_output=True, text=True, cwd=root, env={"PYTHONPATH": str(root / "site"), "PATH": ""})
+            self.assertEqual(missing.returncode, 2)
+            self.assertIn("there is no program acinus in PATH", missing.stderr)
 
 
 if __name__ == "__main__":
