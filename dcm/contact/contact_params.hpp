@@ -35,7 +35,7 @@ struct ContactParams {
   // For Maugis-Dugdale alone:
   double cohesive_range = 0.02;  ///< um, h0
   double modulus = 10;           ///< kPa, E^
-  double max_radius = 1e3;       ///< um, R^ of surfaces that are flat or fit into each other
+  double max_radius = 50;        ///< um, R^ of surfaces that are flat or fit into each other
 };
 
 /// Gap kept between the folds of one surface, um.

@@ -50,7 +50,8 @@ void describe_time(Visitor& v, Scene& s) {
   v.flag({.name = "extrapolate",
           .meaning =
               "linearly implicit steps extrapolate along the last step's velocity, which reduces "
-              "the error of steady motion threefold"},
+              "the error of steady motion threefold; not with contact.law = maugis-dugdale, where "
+              "extrapolated steps oscillate"},
          n.extrapolate);
   v.integer({.name = "until_cells",
              .meaning = "the run ends when there are so many cells; 0 = only at time.end",

@@ -260,6 +260,54 @@ TEST(TriangleContacts, MatrixIsPositiveSemiDefinite) {
   EXPECT_LT((m * x).cwiseAbs().maxCoeff(), 1e3 * kEps * size);
 }
 
+// A tilt moves the centre of the stress of a contact aside. The matrix has this moment from three
+// places a part: of a contact in the middle of its triangle and of one that is wider than it.
+TEST(TriangleContacts, MatrixResistsATilt) {
+  const std::array<Vec3, 3> corner = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(2, 2 * std::sqrt(3.0), 0)};
+  const Vec3 middle = (corner[0] + corner[1] + corner[2]) / 3;
+  const auto contacts_at = [&](double tilt, double radius, double overlap) {
+    std::array<Vec3, 3> x;
+    for (int q = 0; q < 3; ++q)
+      x[q] = middle + Eigen::AngleAxisd(tilt, Vec3::UnitX()) * (corner[q] - middle);
+    const contact::CurvedTriangle t = contact::make_curved_triangle(x, 1 / radius);
+    // The sphere of the triangle goes through its corners.
+    const double rim = t.circumradius, cap = radius - std::sqrt(radius * radius - rim * rim);
+    std::vector<contact::Contact> found;
+    add_object_contacts({.modulus = 10, .adhesion = 0, .cohesive_stress = 0}, t,
+                        {middle + (cap - overlap) * Vec3::UnitZ(), -Vec3::UnitZ(), 0, 0}, {},
+                        nullptr, found);
+    return std::pair(found, t);
+  };
+  const auto moment_of = [&](const auto& at) {  // about the x axis through the middle, nN um
+    double moment = 0;
+    for (const contact::Contact& k : at.first) {
+      const auto w = contact::Contact::weights_at(k.place_a);
+      Vec3 x = Vec3::Zero();
+      for (int q = 0; q < 3; ++q) x += w[q] * at.second.corner[q];
+      moment += (x - middle).cross(k.force * k.normal).x();
+    }
+    return moment;
+  };
+  for (const double radius : {12.0, 1e3}) {
+    const double overlap = radius > 100 ? 0.3 : 0.1, tilt = 1e-5;
+    const auto at = contacts_at(0, radius, overlap);
+    ASSERT_EQ(at.first.size(), 3);
+    double stiffness = 0;
+    for (const contact::Contact& k : at.first) {
+      const auto w = contact::Contact::weights_at(k.place_a);
+      Vec3 x = Vec3::Zero();
+      for (int q = 0; q < 3; ++q) x += w[q] * corner[q];
+      stiffness += k.slope * (x - middle).y() * (x - middle).y();
+    }
+    const double exact = (moment_of(contacts_at(-tilt, radius, overlap)) -
+                          moment_of(contacts_at(tilt, radius, overlap))) /
+                         (2 * tilt);
+    std::printf("radius %4.0f um: stiffness against tilt %.3g nN um, exact %.3g\n", radius,
+                stiffness, exact);
+    EXPECT_NEAR(stiffness, exact, 0.25 * exact);
+  }
+}
+
 TEST(TriangleContacts, RubWithTheirAreasAndTakeThemFromTheMedium) {
   Clump c = make_triangle_clump(80);
   c.find();
