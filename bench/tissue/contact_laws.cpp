@@ -157,11 +157,14 @@ BenchRow pull_off_row(const LawCase& l) {
   const PullOff p = measure_pull_off(l.pair);
   BenchRow row{
       fmt::format("{}, W {:g} J/m^2, seed {}", l.name, 1e-3 * l.pair.adhesion, l.pair.seed), 2, {}};
-  row.value = {{"ratio_to_piWR", p.force() / vesicle_force(l.pair)},
-               {"pull_off_nN", p.force()},
-               {"area_um2", p.start.area},
-               {"last_area_um2", p.last.area},
-               {"last_distance_um", p.last.distance}};
+  row.value = {{"adhered", p.adhered ? 1 : 0}};
+  if (p.adhered) {
+    row.value.insert(row.value.end(), {{"ratio_to_piWR", p.force() / vesicle_force(l.pair)},
+                                       {"pull_off_nN", p.force()},
+                                       {"area_um2", p.start.area},
+                                       {"last_area_um2", p.last.area},
+                                       {"last_distance_um", p.last.distance}});
+  }
   print_row(row);
   return row;
 }
@@ -223,7 +226,7 @@ BenchTable bench_contact_laws(const BenchOptions& options) {
 BenchTable bench_contact_laws_pull_off(const BenchOptions& options) {
   BenchTable table;
   for (LawCase& l : make_pair_cases()) {
-    if (l.pair.nodes != 162 || l.after_cohesive) continue;
+    if (l.after_cohesive || l.pair.h0 != PairCase{}.h0) continue;
     l.pair.step = PairCase{}.step;
     for (const double adhesion : {0.01, 0.02, 0.05})
       for (int k = 0; k < options.seeds; ++k) {

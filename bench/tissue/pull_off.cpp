@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/tissue/pulled_pair.hpp"
+#include "core/error.hpp"
 #include "core/vec.hpp"
 
 namespace acinus::bench {
@@ -37,6 +38,7 @@ BenchRow measure(const std::string& name, PairCase c, const BenchOptions& option
   for (int k = 0; k < options.seeds; ++k) {
     c.seed = options.first + k;
     const PullOff p = measure_pull_off(c);
+    check(p.adhered, "bench pull-off: the cells do not adhere", Exit::kCannotContinue);
     points.push_back({c.adhesion, p.force()});
     ratio.add(p.force() / vesicle_force(c));
     rigid.add(compute_rigid_pull_off(c) / (2 * vesicle_force(c)));

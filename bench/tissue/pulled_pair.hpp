@@ -36,6 +36,7 @@ struct PairRest {
 
 /// Pull-off of a pair, bracketed by two forces.
 struct PullOff {
+  bool adhered = false;       ///< false: no contact formed from the start of the scene, no values
   double kept = 0, lost = 0;  ///< largest force borne and least force not borne, nN
   PairRest start;             ///< without force
   PairRest last;              ///< under the largest force borne
