@@ -28,12 +28,14 @@ void describe_law(Visitor& v, ContactBlock& b) {
             .range = kPositive,
             .symbol = "E^"},
            b.modulus);
-    w.real({.name = "max_radius",
-            .meaning = "largest reduced radius, of surfaces that are flat or fit into each other",
-            .dimension = kLength,
-            .unit = "um",
-            .range = kPositive},
-           b.max_radius);
+    w.real(
+        {.name = "max_radius",
+         .meaning = "largest reduced radius, of surfaces that are flat or fit into each other; the "
+                    "overlap of a flat contact under a pressure is proportional to it",
+         .dimension = kLength,
+         .unit = "um",
+         .range = kPositive},
+        b.max_radius);
   });
 }
 
