@@ -292,14 +292,20 @@ void add_object_contacts(const contact::MaugisLaw& law, const CurvedTriangle& tr
   for (const contact::TrianglePart* part : {&found.push, &found.pull}) {
     if (!(part->area > 0)) continue;
     Contact k = like;
-    k.normal = center == nullptr
-                   ? Vec3(-found.normal)
-                   : Vec3((place_at(triangle.corner, part->place_a) - *center).normalized());
     share_out(*part, k);
-    for (const std::array<double, 3>& place : spread(triangle, *part)) {
-      k.place_a = rounded(place);
-      k.gap =
-          k.normal.dot(place_at(triangle.corner, Contact::weights_at(k.place_a)) - object.middle);
+    std::array<Vec3, kPlaces> place;  // as rounded in the record, so that no moment is left
+    std::array<std::array<float, 2>, kPlaces> weights;
+    Vec3 middle = Vec3::Zero();
+    const auto exact = spread(triangle, *part);
+    for (int q = 0; q < kPlaces; ++q) {
+      weights[q] = rounded(exact[q]);
+      place[q] = place_at(triangle.corner, Contact::weights_at(weights[q]));
+      middle += place[q] / kPlaces;
+    }
+    k.normal = center == nullptr ? Vec3(-found.normal) : Vec3((middle - *center).normalized());
+    for (int q = 0; q < kPlaces; ++q) {
+      k.place_a = weights[q];
+      k.gap = k.normal.dot(place[q] - object.middle);
       out.push_back(k);
     }
   }

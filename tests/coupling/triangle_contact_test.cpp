@@ -174,6 +174,27 @@ TEST(TriangleContactSteps, AVesselHoldsACellThatIsPulledOntoIt) {
   }
 }
 
+// With one place a force, or with extrapolated steps, the cell moved to and fro from step to step.
+TEST(TriangleContactSteps, ACompressedCellTakesFullStepsAndComesToRest) {
+  World w = make_test_world({{Vec3::Zero()}}, 60);
+  w.params.dcm_contact.law = dcm::ContactLaw::kMaugisDugdale;
+  w.params.boundary.capsules.push_back(
+      {.name = "capsule", .radius = 12.2, .speed = 1e-4, .min_radius = 11.6, .material = {}});
+  w.params.numerics.adaptive = w.params.numerics.extrapolate = true;
+  w.params.numerics.tolerance = 0.1;
+  SizedWorkspace work(w);
+  EXPECT_TRUE(run_until(w, work, 2.5 * 3600));
+  double largest = 0;
+  for (int n = 0; n < 5; ++n) {
+    const StepResult step = take_step(w, work, 60);
+    largest = std::max(largest, step.max_move);
+  }
+  std::printf("in a capsule: %lld steps, then moves of %.4f um\n",
+              static_cast<long long>(w.state.clock.accepted), largest);
+  EXPECT_LT(w.state.clock.accepted, 170);  // 150 of 60 s
+  EXPECT_LT(largest, 0.01);
+}
+
 // The first steps: later the jumps of the force part what round-off has parted.
 TEST(TriangleContactSteps, TurnAndShiftWithTheCells) {
   const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
