@@ -2,10 +2,15 @@
 
 #include "runs/calibrate/calibrate_scene.hpp"
 
+#include <fmt/format.h>
+
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "cli/command.hpp"
 #include "cli/wall_time.hpp"
+#include "core/error.hpp"
 #include "core/parallel/stop.hpp"
 #include "core/units/dimension.hpp"
 #include "runs/experiments/read_scene.hpp"
@@ -21,8 +26,20 @@ struct CalibrateArguments {
   std::string check_friction, relaxation_time, max_walltime;
 };
 
+/// Refuses changes of keys that --cells sets itself: the capsule fits the clump.
+void check_effects(const CalibrateArguments& a) {
+  if (a.options.clump.cells == 0) return;
+  for (const std::string& set : a.set)
+    check(!set.starts_with("capsule.") && !set.starts_with("time.end="),
+          fmt::format("--set {} has no effect beside --cells, which makes a capsule for its clump. "
+                      "Write a scene with cells.count and a capsule, and calibrate that without "
+                      "--cells.",
+                      set));
+}
+
 int run(CalibrateArguments& arguments) {
   runs::CalibrateOptions& options = arguments.options;
+  check_effects(arguments);
   const WallTimeLimit limit(read_wall_time_limit(arguments.max_walltime));
   if (!arguments.check_friction.empty())
     options.calibration.check_friction =

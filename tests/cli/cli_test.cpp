@@ -139,9 +139,11 @@ TEST(Cli, OptionsWithoutEffectAreRefused) {
            "run " + kScene + " --out ''", "run ''", "new two_cells ''", "explain ''",
            "check " + kScene + " --set ''", "mesh vessels lobule_hybrid --out ''",
            "run " + kScene + " --sharing random", "run " + kScene + " --quiet --progress json",
-           "openvt relax11 --cells 20", "explain --markdown radius", "explain --observables radius",
-           "study example --tasks 2", "study example --task 1",
-           "study example --dry-run --overwrite", "study example --report --jobs 2"}) {
+           "openvt relax11 --cells 20",
+           "calibrate --cells 15 --set 'capsule.min_radius=30 um' --out a.json",
+           "explain --markdown radius", "explain --observables radius", "study example --tasks 2",
+           "study example --task 1", "study example --dry-run --overwrite",
+           "study example --report --jobs 2"}) {
     const Outcome outcome = call(arguments);
     EXPECT_EQ(outcome.code, 2) << arguments << "\n" << outcome.text;
     EXPECT_NE(outcome.text, "") << arguments;
