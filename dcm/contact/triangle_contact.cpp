@@ -95,7 +95,6 @@ struct BodyPair {
   double reach;  ///< um
 
   bool is_fixed() const { return static_cast<std::size_t>(list.body_b) >= work.body.size(); }
-  const SurfaceBody& body_b() const { return contact::body_at(work.body, work.fixed, list.body_b); }
   const std::vector<CurvedTriangle>& curved_b() const {
     const std::size_t k = list.body_b;
     return is_fixed() ? work.triangles.fixed[k - work.body.size()] : work.triangles.curved[k];
@@ -141,8 +140,8 @@ struct BodyPair {
     k.partner = is_fixed() ? contact::Partner::kMesh : contact::Partner::kSurface;
     k.normal = -normal_a_to_b;
     k.place_a = rounded(place);
-    const Corners at_b = corners_of(body_b(), t);
-    const Vec3 x = place_at(corners_of(work.body[k.a], s), Contact::weights_at(k.place_a));
+    const Corners& at_b = curved_b()[t].corner;
+    const Vec3 x = place_at(work.triangles.curved[k.a][s].corner, Contact::weights_at(k.place_a));
     const std::array<double, 3> w = contact::weights_along(k.normal, at_b, x);
     k.place = rounded(w);
     k.gap = k.normal.dot(x - place_at(at_b, w));

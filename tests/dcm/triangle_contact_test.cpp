@@ -278,14 +278,14 @@ TEST(TriangleContacts, MatrixResistsATilt) {
                         nullptr, found);
     return std::pair(found, t);
   };
+  const auto arm_of = [&](const contact::Contact& k, const contact::CurvedTriangle& t) {
+    const auto w = contact::Contact::weights_at(k.place_a);
+    return Vec3(w[0] * t.corner[0] + w[1] * t.corner[1] + w[2] * t.corner[2] - middle);
+  };
   const auto moment_of = [&](const auto& at) {  // about the x axis through the middle, nN um
     double moment = 0;
-    for (const contact::Contact& k : at.first) {
-      const auto w = contact::Contact::weights_at(k.place_a);
-      Vec3 x = Vec3::Zero();
-      for (int q = 0; q < 3; ++q) x += w[q] * at.second.corner[q];
-      moment += (x - middle).cross(k.force * k.normal).x();
-    }
+    for (const contact::Contact& k : at.first)
+      moment += arm_of(k, at.second).cross(k.force * k.normal).x();
     return moment;
   };
   for (const double radius : {12.0, 1e3}) {
@@ -293,12 +293,8 @@ TEST(TriangleContacts, MatrixResistsATilt) {
     const auto at = contacts_at(0, radius, overlap);
     ASSERT_EQ(at.first.size(), 3);
     double stiffness = 0;
-    for (const contact::Contact& k : at.first) {
-      const auto w = contact::Contact::weights_at(k.place_a);
-      Vec3 x = Vec3::Zero();
-      for (int q = 0; q < 3; ++q) x += w[q] * corner[q];
-      stiffness += k.slope * (x - middle).y() * (x - middle).y();
-    }
+    for (const contact::Contact& k : at.first)
+      stiffness += k.slope * std::pow(arm_of(k, at.second).y(), 2);
     const double exact = (moment_of(contacts_at(-tilt, radius, overlap)) -
                           moment_of(contacts_at(tilt, radius, overlap))) /
                          (2 * tilt);
