@@ -11,6 +11,7 @@
 #include <functional>
 
 #include "core/error.hpp"
+#include "runs/scene/shipped_scenes.hpp"
 
 namespace acinus::runs {
 namespace fs = std::filesystem;
@@ -59,6 +60,17 @@ void erase_member(Node& object, std::string_view name) {
   std::erase_if(object.members, [name](const JsonMember& member) { return member.name == name; });
 }
 
+/// Message for an extended file that does not exist, with advice if its name is a shipped scene.
+std::string describe_missing(const fs::path& path) {
+  const std::string name = path.stem().string(), folder = path.parent_path().string();
+  const bool shipped = fs::is_regular_file(fs::path(scene_folder()) / (name + ".json"));
+  return fmt::format("no such file: {}{}", path.string(),
+                     shipped ? fmt::format(". Copy the shipped scene first, `acinus new {} {}`, "
+                                           "and write \"{}.json\"",
+                                           name, folder.empty() ? "." : folder, name)
+                             : "");
+}
+
 /// Parses source number `source` and merges it over what it extends.
 /// @param chain  files being read, outermost first
 Node load(Document& document, int source, const std::string& text,
@@ -82,7 +94,7 @@ Node load(Document& document, int source, const std::string& text,
   const Source from = document.sources[source];
   const fs::path path = (fs::path(from.folder) / extends->text).lexically_normal();
   std::error_code code;
-  if (!fs::is_regular_file(path, code)) refuse("no such file: " + path.string());
+  if (!fs::is_regular_file(path, code)) refuse(describe_missing(path));
   const std::string identity = fs::weakly_canonical(path, code).string();
   if (std::find(chain.begin(), chain.end(), identity) != chain.end()) {
     refuse("the files extend each other in a circle");

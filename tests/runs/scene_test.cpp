@@ -332,6 +332,8 @@ TEST(SceneExtends, CirclesAndMissingFilesAreRefused) {
   EXPECT_CONTAINS(file_failure(self), "circle");
   const std::string lost = folder.write("lost.json", R"({"extends": "no.json"})");
   EXPECT_CONTAINS(file_failure(lost), ":1:13 /extends = \"no.json\": no such file: ");
+  const std::string shipped = folder.write("shipped.json", R"({"extends": "clump13"})");
+  EXPECT_CONTAINS(file_failure(shipped), "acinus new clump13 ");
   EXPECT_CONTAINS(file_failure(folder.write("n.json", R"({"extends": 3})")), "must be the path");
 }
 
