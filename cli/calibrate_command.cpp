@@ -73,7 +73,8 @@ Command add_calibrate(CLI::App& app, const std::string& command_line) {
   command->add_option("--type", o.clump.type, "cell type, where the scene has several")
       ->type_name("NAME");
   command
-      ->add_option("--cells", o.clump.cells, "cells of the clump, e.g. 15, 27 or 59 (default: 59)")
+      ->add_option("--cells", o.clump.cells,
+                   "cells of the clump, 59 or more for a law to use, fewer to try (default: 59)")
       ->type_name("N")
       ->check(CLI::Range(9, 1000));
   command->add_option("--rate", o.clump.rate, "factor on the speed of compression")
@@ -95,8 +96,9 @@ Command add_calibrate(CLI::App& app, const std::string& command_line) {
                    "of moduli is made (default: 0.1)")
       ->type_name("E")
       ->check(CLI::Range(0.0, 10.0));
-  CLI::Option* none = command->add_flag("!--no-relaxation", o.calibration.relaxation,
-                                        "leave out how long the clump takes to relax");
+  CLI::Option* none = command->add_flag_callback(
+      "--no-relaxation", [&o] { o.calibration.relaxation = false; },
+      "leave out how long the clump takes to relax");
   command
       ->add_option(
           "--check-friction", arguments->check_friction,

@@ -78,7 +78,8 @@ int run_cli(int argc, const char* const* argv) {
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   app.footer(
-      "Help on a command: acinus run --help\n"
+      "Help on a command: acinus run --help. On a key of scenes: acinus explain contact.range.\n"
+      "Pages: docs/index.md of the source, or share/doc/acinus/docs/index.md.\n"
       "Exit codes: 0 done, 1 internal error, 2 bad scene or command line, 3 cannot continue,\n"
       "4 disk or file error, 5 compared runs beyond a tolerance, 75 stopped with a checkpoint "
       "written");

@@ -130,7 +130,7 @@ Command add_run(CLI::App& app, const std::string& command_line) {
       ->type_name("TIME");
   command
       ->add_option("--max-cells", arguments->max_cells,
-                   "the same as --until-cells, but no error where cells do not divide")
+                   "stop when there are this many cells, also where cells may not divide")
       ->check(CLI::PositiveNumber);
   command->add_option("--until-cells", run.until_cells, "stop when there are this many cells")
       ->type_name("N")

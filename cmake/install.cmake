@@ -9,9 +9,10 @@ if(ACINUS_BENCH)
   install(TARGETS acinus-bench RUNTIME)
 endif()
 install(DIRECTORY runs/scenes runs/studies runs/laws DESTINATION ${CMAKE_INSTALL_DATADIR}/acinus)
-install(FILES LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE CITATION.cff README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)  # the name that Debian expects
 install(DIRECTORY docs/examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN examples EXCLUDE PATTERN status.md EXCLUDE)
 # Where Debian's Python looks; elsewhere this folder goes into PYTHONPATH.
 install(DIRECTORY python/acinus DESTINATION lib/python3/dist-packages FILES_MATCHING PATTERN "*.py" PATTERN "py.typed")
 

@@ -27,13 +27,14 @@ EXIT_CODES = {  # code -> meaning, commands that return it
          "(`run` and `openvt` with `--resume`)", "`run`, `calibrate`, `compare --scene`, `study`, `infer`, `openvt`; `check --max-walltime`"),
 }
 
-SIGNALS = [  # all of them, as tests/cli/ends_test.py sends them: docs/howto/stopping.md
-    ("INT (Ctrl-C), TERM, HUP, QUIT, USR1, USR2, XCPU and others that ask for an end",
+SIGNALS = [  # all of them, as tests/cli/ends_test.py sends them
+    ("HUP, INT (Ctrl-C), QUIT, USR1, USR2, ALRM, TERM, XCPU, VTALRM, PROF, STKFLT, POLL (IO), PWR, real-time signals",
      "commands that simulate stop with a checkpoint, exit code 75; other commands end"),
     ("PIPE", "ignored: output that nobody reads is dropped"),
     ("XFSZ", "ignored: the write fails, exit code 4"),
-    ("STOP, TSTP", "the process halts until CONT"),
-    ("KILL; SEGV, ABRT, BUS and others of a crash", "the process ends at once; the last checkpoint stays"),
+    ("CHLD, CONT, URG, WINCH", "nothing"),
+    ("STOP, TSTP, TTIN, TTOU", "the process halts until CONT"),
+    ("ILL, TRAP, ABRT, BUS, FPE, SEGV, SYS, KILL", "the process ends at once; the last checkpoint stays"),
 ]
 
 MORE = {  # command -> page
@@ -143,7 +144,7 @@ def commands_page(program):
              "## Exit codes", "", "| code | meaning | commands |", "|---|---|---|"]
     lines += [f"| {code} | {meaning} | {who} |" for code, (meaning, who) in EXIT_CODES.items()]
     lines += ["", "## Signals", "", "| signal | effect |", "|---|---|", *(f"| {a} | {b} |" for a, b in SIGNALS), "",
-              "Every signal, limits, and batch systems: [stopping](../howto/stopping.md).", ""]
+              "Limits and batch systems: [stopping](../howto/stopping.md).", ""]
     for name in names:
         lines += section(program, (name,))
     return "\n".join(lines).rstrip() + "\n"

@@ -102,8 +102,12 @@ std::string keys_of(const Entry& block, const std::vector<Entry>& entries) {
   for (const auto& [name, entry] : keys) {
     const std::string condition =
         entry->condition.empty() ? "" : fmt::format(" (only with {})", entry->condition);
-    text += fmt::format("    {:{}}  {:{}}  {}{}\n", name, width, default_text(*entry),
-                        default_width, entry->meaning, condition);
+    const std::string choices =
+        entry->type == "text" && entry->range.find(", ") != std::string::npos
+            ? fmt::format(" [{}]", entry->range)
+            : "";
+    text += fmt::format("    {:{}}  {:{}}  {}{}{}\n", name, width, default_text(*entry),
+                        default_width, entry->meaning, choices, condition);
   }
   return text;
 }

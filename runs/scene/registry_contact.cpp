@@ -30,8 +30,8 @@ void describe_law(Visitor& v, ContactBlock& b) {
            b.modulus);
     w.real(
         {.name = "max_radius",
-         .meaning = "largest reduced radius, of surfaces that are flat or fit into each other; the "
-                    "overlap of a flat contact under a pressure is proportional to it",
+         .meaning = "limit of the reduced radius of two surfaces, which flat and fitting surfaces "
+                    "have; the overlap of a flat contact under a pressure is proportional to it",
          .dimension = kLength,
          .unit = "um",
          .range = kPositive},
@@ -43,10 +43,12 @@ void describe_law(Visitor& v, ContactBlock& b) {
 
 void describe_contact(Visitor& v, ContactBlock& b) {
   describe_law(v, b);
-  choice(
-      v,
-      {.name = "quadrature", .meaning = "contact points of a triangle", .in_law = InLaw::kSetting},
-      b.quadrature);
+  choice(v,
+         {.name = "quadrature",
+          .meaning = "contact points: three in each triangle, the nodes, or the nodes and the "
+                     "middles of edges",
+          .in_law = InLaw::kSetting},
+         b.quadrature);
   v.real({.name = "repulsion",
           .meaning = "stiffness against overlap, pressure per depth",
           .dimension = kStiffnessPerArea,

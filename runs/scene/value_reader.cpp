@@ -70,7 +70,9 @@ bool ValueReader::read_real(const Key& key, const Node& node, const std::string&
   double number = 0;
   if (key.unit[0] == '\0') {
     if (node.kind != Kind::kInteger && node.kind != Kind::kNumber) {
-      report_.add_value(node, pointer, "must be a plain number, without unit and quotes");
+      report_.add_value(
+          node, pointer,
+          fmt::format("must be a plain number, without unit and quotes: {}", key.meaning));
       return false;
     }
     number = node.number;

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
 
 #include "core/sphere.hpp"
@@ -32,6 +34,15 @@ std::string verdict(const std::string& what, double depth, double radius, bool g
                     const std::string& limit) {
   return fmt::format("deepest overlap of {}: {:.2g} um, {:.2g} % of a radius: {} (limit {})", what,
                      depth, 100 * depth / radius, good ? "good" : "TOO DEEP", limit);
+}
+
+/// Partner of the deepest overlap of a deformable cell.
+std::string deepest_partner(const RunTotals& t) {
+  const std::pair<double, const char*> partners[] = {{t.dcm_dcm_um, "each other"},
+                                                     {t.dcm_vessel_um, "vessels"},
+                                                     {t.dcm_wall_um, "walls"},
+                                                     {t.dcm_cbm_beyond_um, "spheres"}};
+  return std::ranges::max_element(partners, {}, [](const auto& p) { return p.first; })->second;
 }
 
 /// Verdicts on the overlaps of spheres with each other and with vessels.
@@ -99,8 +110,8 @@ std::vector<std::string> describe_result(const coupling::World& world, const Run
   std::vector<std::string> lines{std::move(cells)};
   if (const double radius = mean_deformable_radius(s); radius > 0) {
     const double limit = world.params.dcm_contact.max_depth;
-    lines.push_back(verdict("deformable cells", totals.max_penetration_um, radius,
-                            totals.max_penetration_um <= limit,
+    lines.push_back(verdict("deformable cells with " + deepest_partner(totals),
+                            totals.max_penetration_um, radius, totals.max_penetration_um <= limit,
                             fmt::format("{:.3g} um, contact.max_depth", limit)));
   }
   add_sphere_verdicts(world, totals, lines);

@@ -232,7 +232,8 @@ TEST(SceneErrors, RulesOfLife) {
   EXPECT_EQ(failure(cell(R"("inhibition": {"by": "volume", "volume_threshold": "0.8"})")),
             at + "84 " + type +
                 "inhibition/volume_threshold = \"0.8\": must be a plain number, "
-                "without unit and quotes");
+                "without unit and quotes: volume, relative to the volume at rest, that halves the "
+                "growth rate");
   EXPECT_EQ(failure(cell(R"("death": {"softening": 0.5})")),
             at + "56 " + type + "death/softening = 0.5: is used only with mode = lysis. Remove it");
   EXPECT_EQ(failure(cell(R"("death": {"mode": "lysis", "final_volume": 1})")),
@@ -441,7 +442,7 @@ TEST(SceneErrors, RulesBetweenKeys) {
        R"(time, e.g. "24 h")"},
       {"unit where none belongs", minimal("\"2 h\"", R"("2 h", "max_move": "0.3 um")"),
        R"(scene.json:2:38 /time/max_move = "0.3 um": must be a plain number, without unit )"
-       R"(and quotes)"},
+       R"(and quotes: farthest a node may move in one step, in mean edge lengths; 0 = no cap)"},
       {"block that is no block", with_block(R"("contact": 3)"),
        R"(scene.json:1:14 /contact = 3: must be a block, { ... })"},
       {"list that is no list", with_block(R"("walls": {})"),

@@ -99,7 +99,7 @@ TEST_F(TerminalOutput, TheEndSaysWhatTheRunLeaves) {
   ASSERT_NE(completed, std::string::npos) << end;
   EXPECT_CONTAINS(end.substr(completed),
                   "; results in a\ncells: 1 deformable cell, 1 sphere\n"
-                  "deepest overlap of deformable cells: ... "
+                  "deepest overlap of deformable cells with ... "
                   "deepest overlap of spheres: 0 um, 0 % of a radius: good "
                   "(limit 50 %)\n ... "
                   "page for the browser: acinus report a\n"
