@@ -11,7 +11,7 @@
 #include <functional>
 
 #include "core/error.hpp"
-#include "runs/scene/shipped_scenes.hpp"
+#include "runs/scene/scene_folder.hpp"
 
 namespace acinus::runs {
 namespace fs = std::filesystem;

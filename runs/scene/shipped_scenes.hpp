@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "runs/scene/scene_folder.hpp"
+
 namespace acinus::runs {
 
 struct ShippedScene {
@@ -11,11 +13,6 @@ struct ShippedScene {
   std::string file;
   std::string description;
 };
-
-/// Folder of the shipped scenes: runs/scenes or share/acinus/scenes beside the folder of the
-/// program, else that of the source tree.
-/// @throws Error (kFileError) if there is none.
-std::string scene_folder();
 
 /// Paths of the shipped JSON files of a kind, "laws" or "studies", by name: those of the folder of
 /// that name beside the scenes. Empty without the folder.

@@ -231,9 +231,8 @@ TEST(SceneErrors, RulesOfLife) {
                 "e.g. \"1 kPa\" (acinus explain cell.inhibition.pressure_threshold)");
   EXPECT_EQ(failure(cell(R"("inhibition": {"by": "volume", "volume_threshold": "0.8"})")),
             at + "84 " + type +
-                "inhibition/volume_threshold = \"0.8\": must be a plain number, "
-                "without unit and quotes: volume, relative to the volume at rest, that halves the "
-                "growth rate");
+                "inhibition/volume_threshold = \"0.8\": must be a plain number, without unit and "
+                "quotes: volume, relative to the volume at rest, that halves the growth rate");
   EXPECT_EQ(failure(cell(R"("death": {"softening": 0.5})")),
             at + "56 " + type + "death/softening = 0.5: is used only with mode = lysis. Remove it");
   EXPECT_EQ(failure(cell(R"("death": {"mode": "lysis", "final_volume": 1})")),
