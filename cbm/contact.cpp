@@ -145,7 +145,7 @@ bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {
     if (2 * (moved + wider) <= skin) return false;
   }
   const double margin = largest_separation(s, in.params, radius, in.boundary) + skin;
-  work.pair = {};  // before the new ones take memory
+  work.pair = std::vector<std::pair<int, int>>();  // freed before the new ones take memory
   work.pair = contact::find_sphere_pairs(s.position.data(), radius, margin, work.ghost);
   work.segment.clear();
   const geometry::Network& network = in.boundary.vessels.network;
@@ -235,7 +235,7 @@ void add_vessel_loads(const ContactInput& in, const contact::ContactList& contac
     // Spheres may overlap without limit: no depth is too large.
     solve::set_law(k.slope, k.friction, std::numeric_limits<double>::infinity(), k.normal,
                    links.link[l]);
-    links.load[l] = {k.normal, k.force, 0, 0, static_cast<std::uint32_t>(first + n)};
+    links.law[l] = {0, 0, static_cast<std::uint32_t>(first + n)};
   }
 }
 

@@ -305,9 +305,9 @@ contact::Contact record_of(const PairBatch& batch, std::size_t l, std::pair<int,
 void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
                         std::vector<solve::PointLink>& link) {
   const std::size_t n = in.state.n_cell();
-  work.force.resize(in.state.position.size());
-  link.resize(work.pair.size());
-  work.contact_area.resize(n);
+  set_size(work.force, in.state.position.size());
+  set_size(link, work.pair.size());
+  set_size(work.contact_area, n);
   compute_type_factors(in.params, in.options, work);
   const std::size_t n_part = n > kParallelCells ? static_cast<std::size_t>(thread_count()) : 1;
   work.touching_part.resize(n_part - 1);
@@ -319,13 +319,17 @@ void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
                 k == 0 ? work.touching : work.touching_part[k - 1])
         .run();
   });
-  for (const auto& t : work.touching_part)
+  for (const auto& t : work.touching_part) {
+    make_room(work.touching, t.size());
     work.touching.insert(work.touching.end(), t.begin(), t.end());
+  }
 }
 
 void list_pairs(const ContactInput& in, const ContactWorkspace& work,
                 contact::ContactList& contacts) {
-  contacts.all.resize(contacts.first(contact::ContactKind::kSphere));
+  const std::size_t first = contacts.first(contact::ContactKind::kSphere);
+  contacts.all.resize(first);
+  contacts.all.reserve(first + work.touching.size());
   PairBatch batch(in, work);
   const auto flush = [&] {
     if (batch.size() == 0) return;

@@ -9,52 +9,14 @@
 
 #include "contact/closest.hpp"
 #include "contact/discs.hpp"
+#include "contact/reach.hpp"
+#include "contact/self_contact.hpp"
 #include "core/numbers/lanes.hpp"
 #include "core/parallel/threads.hpp"
 #include "geometry/closest_point.hpp"
 
 namespace acinus::contact {
 namespace {
-
-/// Least distance along the surface between the sides of a self-contact, in rest edges.
-constexpr double kSelfRings = 3.0;
-
-/// Centre of a triangle on the unit rest shape.
-Vec3 rest_center(const geometry::Topology& t, std::size_t triangle) {
-  Vec3 sum = Vec3::Zero();
-  for (int c : t.triangle[triangle]) sum += t.rest[c];
-  return sum / 3;
-}
-
-/// True if a site and a triangle are far enough apart along the rest shape for self-contact.
-bool far_on_surface(const SurfaceBody& b, Quadrature q, std::size_t site, std::size_t triangle) {
-  const geometry::Topology& t = *b.topology;
-  Vec3 from;
-  if (has_face_sites(q)) {
-    from = rest_center(t, site);
-  } else if (site < t.rest.size()) {
-    from = t.rest[site];
-  } else {
-    const auto& [i, j] = t.edge[site - t.rest.size()];
-    from = 0.5 * (t.rest[i] + t.rest[j]);
-  }
-  return (from - rest_center(t, triangle)).norm() > kSelfRings * t.mean_rest_length;
-}
-
-/// True if a body is so far from star-shaped that self-contact is possible. While all normals are
-/// within about 70 degrees of the direction from the centre, facing sides open at 40 degrees or
-/// more and come close only at the bottom of a cleft, where they are neighbours along the surface.
-bool may_fold(const SurfaceBody& b) {
-  constexpr double kStar = 0.35;
-  Vec3 center = Vec3::Zero();
-  for (const Vec3& x : b.node) center += x;
-  center /= static_cast<double>(b.node.size());
-  for (std::size_t t = 0; t < b.center.size(); ++t) {
-    const Vec3 out = b.center[t] - center;
-    if (b.triangle_normal[t].dot(out) < kStar * out.norm()) return true;
-  }
-  return false;
-}
 
 /// Distance bounds of discs, um, up to the end of the last eight: never above the distances of the
 /// triangles.
@@ -79,31 +41,40 @@ ACINUS_KERNEL void compute_bounds(const float* number, std::size_t n,
   }
 }
 
-/// Region in which parts of one body may be near another: within the other's box, and not behind it
-/// along the axis between the two.
-struct Reach {
-  Vec3 middle, half;
-  Vec3 axis = Vec3::Zero();  ///< away from the other body
-  double limit = 1e300;      ///< of axis . x
-
-  bool includes(const Vec3& center, double radius) const {
-    const Vec3 outside = (center - middle).cwiseAbs() - half;
-    // Branch-free, since the deciding condition of the four is unpredictable.
-    const int inside = int{outside[0] <= radius} & int{outside[1] <= radius} &
-                       int{outside[2] <= radius} & int{center.dot(axis) - limit <= radius};
-    return inside != 0;
-  }
-};
-
 /// Largest distance of the entries of a list, um.
 double compute_margin(const SearchOptions& o) { return std::max(o.range, o.max_depth) + o.skin; }
+
+/// Candidate list in full precision, as it is made; grows as needed.
+struct WideCandidates {
+  std::vector<int> point;
+  std::vector<float> gap;
+  std::vector<std::uint32_t> start;
+  std::vector<int> triangle;
+  std::vector<float> bound;
+
+  void clear() {
+    point.clear();
+    gap.clear();
+    start.clear();
+    triangle.clear();
+    bound.clear();
+  }
+  /// Copies the list to measure.
+  void store(Candidates& to) const {
+    to.point = std::vector<int>(point);
+    to.gap = std::vector<HalfFloat>(gap.size());
+    for (std::size_t k = 0; k < gap.size(); ++k) to.gap[k] = HalfFloat(gap[k]);
+    to.start = std::vector<std::uint32_t>(start);
+    to.near.assign(triangle, bound);
+  }
+};
 
 /// Builder of candidate lists, reused from list to list.
 class ListBuilder {
  public:
   void start(const SearchOptions& o) { o_ = o; }
 
-  void fill(const SurfaceBody& a, const SurfaceBody& b, bool self, Candidates& list) {
+  void fill(const SurfaceBody& a, const SurfaceBody& b, bool self, WideCandidates& list) {
     a_ = &a;
     b_ = &b;
     self_ = self;
@@ -114,7 +85,10 @@ class ListBuilder {
     list.start.assign(1, 0);
     compute_reach();
     origin_ = 0.5 * (b.box.low + b.box.high);
-    select_near(near_a_, b.center, b.reach);
+    if (o_.triangles)
+      select_circumspheres(near_a_, b);
+    else
+      select_triangles(near_a_, b);
     discs_.reset(included_.size());
     for (const int t : included_) discs_.add(b, t, origin_);
     near_.reset(discs_.n);
@@ -160,11 +134,40 @@ class ListBuilder {
     included_.resize(n);
   }
 
+  /// Selects the triangles that have a point within a region: no bound of it has all three corners
+  /// outside.
+  void select_triangles(const Reach& reach, const SurfaceBody& body) {
+    const std::vector<std::array<int, 3>>& triangle = *body.triangle;
+    outside_.resize(body.node.size());
+    for (std::size_t i = 0; i < outside_.size(); ++i) outside_[i] = reach.outside(body.node[i]);
+    included_.resize(triangle.size());
+    std::size_t n = 0;
+    for (std::size_t t = 0; t < triangle.size(); ++t) {
+      const auto& [i, j, k] = triangle[t];
+      included_[n] = static_cast<int>(t);
+      n += (outside_[i] & outside_[j] & outside_[k]) == 0 ? 1 : 0;
+    }
+    included_.resize(n);
+  }
+
+  /// Selects the triangles whose circumspheres reach into a region.
+  void select_circumspheres(const Reach& reach, const SurfaceBody& body) {
+    if (!body.center.empty()) return select_near(reach, body.center, body.reach);
+    const std::size_t n = body.triangle->size();
+    place_.resize(n);
+    radius_.resize(n);
+    for (std::size_t t = 0; t < n; ++t) {
+      place_[t] = triangle_center(body, t);
+      radius_[t] = triangle_reach(body, t);
+    }
+    select_near(reach, place_, radius_);
+  }
+
   /// Selects the sites of a near b.
   void select_near_sites() {
     switch (o_.quadrature) {
       case Quadrature::kThreePoint:
-        return select_near(near_b_, a_->center, a_->reach);
+        return select_triangles(near_b_, *a_);
       case Quadrature::kNodes:
         return select_near(near_b_, a_->node, {});
       case Quadrature::kNodesAndEdges:
@@ -177,10 +180,10 @@ class ListBuilder {
 
   /// Lists the triangles of b within the margin of each triangle of a.
   void add_triangles() {
-    select_near(near_b_, a_->center, a_->reach);
+    select_circumspheres(near_b_, *a_);
     for (const int s : included_) {
-      compute_bounds_from(discs_, a_->center[s]);
-      const auto far = static_cast<float>(margin_ + a_->reach[s] + kRounding);
+      compute_bounds_from(discs_, triangle_center(*a_, s));
+      const auto far = static_cast<float>(margin_ + triangle_reach(*a_, s) + kRounding);
       const std::size_t before = list_->triangle.size();
       for (std::size_t k = 0; k < discs_.n; ++k)
         if (bound_[k] <= far) list_->triangle.push_back(discs_.triangle[k]);
@@ -316,11 +319,13 @@ class ListBuilder {
   SearchOptions o_;
   // of the list being made:
   const SurfaceBody *a_ = nullptr, *b_ = nullptr;
-  Candidates* list_ = nullptr;
+  WideCandidates* list_ = nullptr;
   bool self_ = false;
   double out_ = 0, depth_ = 0, margin_ = 0;
   Reach near_a_, near_b_;
-  std::vector<Vec3> place_;  ///< of the sites of a
+  std::vector<Vec3> place_;        ///< of sites or triangles
+  std::vector<double> radius_;     ///< of triangles
+  std::vector<unsigned> outside_;  ///< of nodes
   std::vector<int> included_;
   Vec3 origin_ = Vec3::Zero();  ///< of the discs
   Discs discs_;                 ///< triangles of b near any part of a
@@ -379,16 +384,14 @@ void fill_candidates(std::span<const SurfaceBody> bodies, std::span<const Surfac
   };
   constexpr std::size_t kWorthThreads = 4;
   for_each_index(lists.size(), lists.size() >= kWorthThreads, [&](std::size_t k) {
-    thread_local Candidates scratch;  // grows as needed; what is kept is copied to measure
+    thread_local WideCandidates scratch;
     thread_local ListBuilder builder;
     builder.start(o);
     const SurfaceBody& a = body_at(bodies, fixed, lists[k]->body_a);
     const SurfaceBody& b = body_at(bodies, fixed, lists[k]->body_b);
     scratch.clear();
-    scratch.body_a = lists[k]->body_a;
-    scratch.body_b = lists[k]->body_b;
     if (may_touch(a, b)) builder.fill(a, b, &a == &b, scratch);
-    *lists[k] = scratch;
+    scratch.store(*lists[k]);
   });
 }
 

@@ -8,6 +8,7 @@
 
 #include "contact/record.hpp"
 #include "contact/surface.hpp"
+#include "contact/triangle_list.hpp"
 
 namespace acinus::contact {
 
@@ -28,16 +29,9 @@ struct SearchOptions {
 struct Candidates {
   int body_a = 0, body_b = 0;
   std::vector<int> point;            ///< of a, or its triangles; ascending
-  std::vector<float> gap;            ///< um, when the list was made; of points
-  std::vector<std::uint32_t> start;  ///< [n_point + 1]
-  std::vector<int> triangle;         ///< of b, the closest first
-  std::vector<float> bound;          ///< um, distance when the list was made
-
-  void clear() {
-    for (auto* v : {&point, &triangle}) v->clear();
-    for (auto* v : {&gap, &bound}) v->clear();
-    start.clear();
-  }
+  std::vector<HalfFloat> gap;        ///< um, when the list was made, towards zero; of points
+  std::vector<std::uint32_t> start;  ///< [n_point + 1] first entry of each point in `near`
+  TriangleList near;                 ///< of b, the closest first; bound: when the list was made
 };
 
 /// Body by its number: `bodies`, which probe, come first, then `fixed`, which are only probed.

@@ -63,17 +63,18 @@ ACINUS_KERNEL void measure(const double* node, const Triangle* triangle, const d
 }
 
 /// Collector of pairs that measures them together and keeps the closest triangle of each point.
+/// @tparam List  ListedTriangles or TriangleList
+template <class List>
 class Measurer {
  public:
-  Measurer(const SurfaceBody& b, std::span<const int> triangle, std::span<float> distance,
-           PointBlock& block)
-      : b_(b), triangle_(triangle), distance_(distance), block_(block) {}
+  Measurer(const SurfaceBody& b, const List& list, std::span<float> distance, PointBlock& block)
+      : b_(b), list_(list), distance_(distance), block_(block) {}
 
   /// Adds a pair if `wanted`, without a branch.
   void add(int point, std::uint32_t candidate, bool wanted = true) {
     pairs_.point[pairs_.n] = point;
     pairs_.candidate[pairs_.n] = candidate;
-    pairs_.triangle[pairs_.n] = triangle_[candidate];
+    pairs_.triangle[pairs_.n] = list_.triangle_at(candidate);
     pairs_.n += wanted ? 1 : 0;
     if (pairs_.n == PointTrianglePairs::kSize) finish();
   }
@@ -120,7 +121,7 @@ class Measurer {
   }
 
   const SurfaceBody& b_;
-  std::span<const int> triangle_;
+  const List& list_;
   std::span<float> distance_;
   PointBlock& block_;
   PointTrianglePairs pairs_;
@@ -167,12 +168,10 @@ ACINUS_KERNEL void gap_kernel(const double* node, const double* node_normal,
   }
 }
 
-}  // namespace
-
-void find_closest(const SurfaceBody& b, const ListedTriangles& candidates, double shift,
-                  double horizon, PointBlock& p, std::span<float> distance) {
-  const std::span<const float> bound = candidates.bound;
-  Measurer pairs(b, candidates.triangle, distance, p);
+template <class List>
+void find_closest_of(const SurfaceBody& b, const List& candidates, double shift, double horizon,
+                     PointBlock& p, std::span<float> distance) {
+  Measurer<List> pairs(b, candidates, distance, p);
   for (int i = 0; i < p.n; ++i) {
     p.squared[i] = horizon * horizon;
     p.triangle[i] = -1;
@@ -183,13 +182,25 @@ void find_closest(const SurfaceBody& b, const ListedTriangles& candidates, doubl
   for (int i = 0; i < p.n; ++i) {
     const double reach = std::sqrt(p.squared[i]) + shift;
     for (std::uint32_t k = p.begin[i] + 1; k < p.end[i]; ++k)
-      pairs.add(i, k, static_cast<double>(bound[k]) <= reach);
+      pairs.add(i, k, static_cast<double>(candidates.bound_at(k)) <= reach);
   }
   pairs.finish();
   for (int i = 0; i < p.n; ++i) {
     p.rounded[0][i] = round_to_float(1 - p.weight_b[i] - p.weight_c[i]);
     p.rounded[1][i] = round_to_float(p.weight_b[i]);
   }
+}
+
+}  // namespace
+
+void find_closest(const SurfaceBody& b, const ListedTriangles& candidates, double shift,
+                  double horizon, PointBlock& block, std::span<float> distance) {
+  find_closest_of(b, candidates, shift, horizon, block, distance);
+}
+
+void find_closest(const SurfaceBody& b, const TriangleList& candidates, double shift,
+                  double horizon, PointBlock& block) {
+  find_closest_of(b, candidates, shift, horizon, block, {});
 }
 
 void compute_gaps(const SurfaceBody& b, Place place, PointBlock& p) {

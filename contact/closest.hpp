@@ -2,10 +2,12 @@
 /// Closest place on a surface to each of many points, for eight pairs of point and triangle at a
 /// time.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "contact/surface.hpp"
+#include "contact/triangle_list.hpp"
 
 namespace acinus::contact {
 
@@ -36,6 +38,9 @@ struct alignas(64) PointBlock {
 struct ListedTriangles {
   std::span<const int> triangle;
   std::span<const float> bound;
+
+  int triangle_at(std::size_t k) const { return triangle[k]; }
+  float bound_at(std::size_t k) const { return bound[k]; }
 };
 
 /// Search for the closest candidate triangle of each point of the block. A tie goes to the lowest
@@ -46,6 +51,8 @@ struct ListedTriangles {
 ///     plus the shift; may be empty
 void find_closest(const SurfaceBody& b, const ListedTriangles& candidates, double shift,
                   double horizon, PointBlock& block, std::span<float> distance = {});
+void find_closest(const SurfaceBody& b, const TriangleList& candidates, double shift,
+                  double horizon, PointBlock& block);
 
 enum class Place {
   kRounded,  ///< place given by the rounded weights

@@ -32,14 +32,13 @@ struct Discs {
   static std::size_t place_of(std::size_t k) { return k / kLanes * kStride + k % kLanes; }
 
   void add(const SurfaceBody& b, std::size_t t, const Vec3& origin) {
-    const Vec3 c = b.center[t] - origin;
-    const Vec3& normal = b.triangle_normal[t];
+    const Vec3 c = triangle_center(b, t) - origin, normal = triangle_normal(b, t);
     float* to = number.data() + place_of(n);
     for (std::size_t m = 0; m < 3; ++m) {
       to[m * kLanes] = static_cast<float>(c[static_cast<int>(m)]);
       to[(3 + m) * kLanes] = static_cast<float>(normal[static_cast<int>(m)]);
     }
-    to[6 * kLanes] = static_cast<float>(b.reach[t]);
+    to[6 * kLanes] = static_cast<float>(triangle_reach(b, t));
     triangle[n++] = static_cast<int>(t);
   }
   void add(const Discs& other, std::size_t k) {

@@ -25,8 +25,8 @@ struct NearestTriangle {
         least2(within * within) {}
 
   void look(std::size_t t) {
-    const double far = reach + b.reach[t];
-    if ((x - b.center[t]).squaredNorm() > far * far) return;
+    const double far = reach + triangle_reach(b, t);
+    if ((x - triangle_center(b, t)).squaredNorm() > far * far) return;
     const auto& corner = (*b.triangle)[t];
     const geometry::ClosestPoint c =
         geometry::find_closest_point(x, b.node[corner[0]], b.node[corner[1]], b.node[corner[2]]);

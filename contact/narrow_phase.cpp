@@ -22,7 +22,7 @@ std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> b
   int point[PointBlock::kSize];
   std::size_t looked = 0;
   auto flush = [&] {
-    find_closest(b, {list.triangle, list.bound}, shift, horizon, block);
+    find_closest(b, list.near, shift, horizon, block);
     // On a fixed body, which has no unknowns, the exact place: it may be far from its corners.
     compute_gaps(b, is_fixed ? Place::kExact : Place::kRounded, block);
     for (int i = 0; i < block.n; ++i) {
@@ -49,7 +49,7 @@ std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> b
   };
   block.n = 0;
   for (std::size_t p = 0; p < list.point.size(); ++p) {
-    const double before = static_cast<double>(list.gap[p]);
+    const double before = static_cast<double>(list.gap[p].value());
     if (before - shift > range || -before - shift > depth) continue;
     const int n = block.n++;
     const Vec3 x = point_position(a, point_stencil(a, o.quadrature, list.point[p]));

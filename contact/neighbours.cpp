@@ -134,7 +134,10 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
   Pairs pairs = std::move(part[0]);
   for (std::size_t k = 1; k < n_part; ++k)
     pairs.insert(pairs.end(), part[k].begin(), part[k].end());
-  if (ghost.empty()) return pairs;
+  if (ghost.empty()) {
+    pairs.shrink_to_fit();  // the list is kept, and spheres at a surface have fewer neighbours
+    return pairs;
+  }
   const auto n_own = static_cast<std::ptrdiff_t>(pairs.size());
   for (const Pairs& p : before) pairs.insert(pairs.end(), p.begin(), p.end());
   std::sort(pairs.begin() + n_own, pairs.end());

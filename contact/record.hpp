@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -34,6 +35,7 @@ inline constexpr int kWhole = -1;
 /// Contact of side a, a cell (a probing point of a deformable surface, or a sphere), with its
 /// partner on side b. The force on a is +force * normal, that on b the opposite.
 struct Contact {
+  using Packed = std::array<float, 2>;  ///< two weights, or the bits of a double
   // Written by the search:
   int a = 0;           ///< surface or sphere
   int point = kWhole;  ///< of surface a: site * points_per_site + local index; or its triangle
@@ -46,32 +48,37 @@ struct Contact {
   // Written by the search:
   /// Barycentric weights of the first two corners of the triangle of b, as the solver stores them;
   /// gap and normal belong to the place they give (to the exact place on a mesh, which has no
-  /// unknowns).
-  std::array<float, 2> place{};
-  /// Likewise on triangle `point` of a; of contacts between triangles only
-  /// (dcm/contact/triangle_contact.hpp).
-  std::array<float, 2> place_a{};
-  double stiffness = 0;        ///< nN/um^3: of a surface with an obstacle, of nuclei
-  double depth = 0;            ///< um, largest of a sphere's contacts with the same surface
+  /// unknowns). Of contacts with a vessel: the bits of onset().
+  Packed place{};
+  /// Weights like `place` on triangle `point` of a, of contacts between triangles
+  /// (dcm/contact/triangle_contact.hpp). Of other contacts the bits of stiffness() or depth().
+  Packed place_a{};
   Vec3 normal = Vec3::Zero();  ///< unit, d gap / d x_a: from b towards a when apart
   double gap = 0;              ///< um, negative: overlap
-  double onset = 0;            ///< um, depth in an obstacle at which repulsion begins
   // Written by the law:
   double touching = 0;  ///< um^2 in contact
   double force = 0;     ///< nN, positive pushes apart; without friction
   double slope = 0;     ///< nN/um, its derivative by depth, not negative
 
+  /// Depth in a vessel at which repulsion begins, um; 0 with other partners.
+  double onset() const { return partner == Partner::kVessel ? std::bit_cast<double>(place) : 0; }
+  /// Stiffness of points with an obstacle and of nuclei, nN/um^3.
+  double stiffness() const { return std::bit_cast<double>(place_a); }
+  /// Largest depth of a sphere's contacts with the points of the same surface, um.
+  double depth() const { return std::bit_cast<double>(place_a); }
+  static Packed pack(double x) { return std::bit_cast<Packed>(x); }
+
   std::array<double, 3> weights() const { return weights_at(place); }
-  static std::array<double, 3> weights_at(const std::array<float, 2>& place) {
+  static std::array<double, 3> weights_at(const Packed& place) {
     const double w0 = static_cast<double>(place[0]), w1 = static_cast<double>(place[1]);
     return {w0, w1, 1 - w0 - w1};
   }
   bool is_fold() const { return partner == Partner::kSurface && a == b; }
   /// True for a contact without adhesion and friction that adds repulsion where the other contacts
-  /// of its point have too little.
-  bool only_pushes() const { return guard || onset > 0; }
+  /// of its point have too little. @pre a contact of a point
+  bool only_pushes() const { return guard || onset() > 0; }
 };
-static_assert(sizeof(Contact) == 120);  // a step reads and writes all of them: larger is slower
+static_assert(sizeof(Contact) == 96);  // a step reads and writes all of them: larger is slower
 
 /// Kinds of contacts by their sides, in the order of the list. Spheres with spheres are listed on
 /// demand: a step evaluates them eight at a time without records.

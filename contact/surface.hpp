@@ -1,7 +1,9 @@
 #pragma once
 /// Triangle surfaces in the contact search: bodies with normals, and their probing points.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,16 +27,52 @@ struct SurfaceBody {
   /// Shared; null for a body without self-contact that is only probed.
   const geometry::Topology* topology = nullptr;
   std::vector<Vec3> node;  ///< um
-  // written by refresh_body:
-  std::vector<Vec3> node_normal;      ///< unit, area weighted
-  std::vector<Vec3> triangle_normal;  ///< unit
-  std::vector<Vec3> center;           ///< of each triangle
-  std::vector<double> reach;          ///< um, circumradius about the centre of each triangle
+  // written by refresh_body and refresh_nodes:
+  std::vector<Vec3> node_normal;  ///< unit, area weighted
   Box box;
+  // written by refresh_body; empty after refresh_nodes, see triangle_normal() and the like:
+  std::vector<Vec3> normal;   ///< of each triangle, unit
+  std::vector<Vec3> center;   ///< of each triangle
+  std::vector<double> reach;  ///< um, circumradius about the centre of each triangle
 };
 
 /// Recomputes all members that depend on the nodes.
 void refresh_body(SurfaceBody& body);
+/// Recomputes the members that depend on the nodes, without those of the triangles: these are two
+/// thirds of a body, and few are of use in one step.
+void refresh_nodes(SurfaceBody& body);
+
+inline const Vec3& corner_of(const SurfaceBody& b, std::size_t triangle, std::size_t corner) {
+  return b.node[(*b.triangle)[triangle][corner]];
+}
+
+/// Normal of a triangle times twice its area.
+inline Vec3 area_normal(const SurfaceBody& b, std::size_t triangle) {
+  const Vec3& x0 = corner_of(b, triangle, 0);
+  return (corner_of(b, triangle, 1) - x0).cross(corner_of(b, triangle, 2) - x0);
+}
+
+/// Unit normal of a triangle; zero if it is flat.
+inline Vec3 triangle_normal(const SurfaceBody& b, std::size_t triangle) {
+  if (!b.normal.empty()) return b.normal[triangle];
+  const Vec3 n = area_normal(b, triangle);
+  const double norm = n.norm();
+  return norm > 0 ? Vec3(n / norm) : Vec3::Zero();
+}
+
+inline Vec3 triangle_center(const SurfaceBody& b, std::size_t triangle) {
+  if (!b.center.empty()) return b.center[triangle];
+  return (corner_of(b, triangle, 0) + corner_of(b, triangle, 1) + corner_of(b, triangle, 2)) / 3;
+}
+
+/// Circumradius of a triangle about its centre, um.
+inline double triangle_reach(const SurfaceBody& b, std::size_t triangle) {
+  if (!b.reach.empty()) return b.reach[triangle];
+  const Vec3 center = triangle_center(b, triangle);
+  return std::sqrt(std::max({(corner_of(b, triangle, 0) - center).squaredNorm(),
+                             (corner_of(b, triangle, 1) - center).squaredNorm(),
+                             (corner_of(b, triangle, 2) - center).squaredNorm()}));
+}
 
 /// True if the sites are triangles. A site is a group of probing points that are searched together:
 /// a triangle, or a node, or a node or an edge (numbered after the nodes).
@@ -51,7 +89,7 @@ inline std::size_t n_points(const SurfaceBody& b, Quadrature q) {
 
 /// Position of a site, um: the triangle's centre, the node, or the midpoint of the edge.
 inline Vec3 site_place(const SurfaceBody& b, Quadrature q, std::size_t site) {
-  if (has_face_sites(q)) return b.center[site];
+  if (has_face_sites(q)) return triangle_center(b, site);
   if (site < b.node.size()) return b.node[site];
   const auto& [i, j] = b.topology->edge[site - b.node.size()];
   return 0.5 * (b.node[i] + b.node[j]);
@@ -59,16 +97,16 @@ inline Vec3 site_place(const SurfaceBody& b, Quadrature q, std::size_t site) {
 
 /// Distance of the corners of a site's triangle from its position, um; that of its points is half.
 inline double site_reach(const SurfaceBody& b, Quadrature q, std::size_t site) {
-  return has_face_sites(q) ? b.reach[site] : 0;
+  return has_face_sites(q) ? triangle_reach(b, site) : 0;
 }
 
 /// Outward unit normal of a site; on an edge the mean of its two faces'.
 inline Vec3 site_normal(const SurfaceBody& b, Quadrature q, std::size_t site) {
-  if (has_face_sites(q)) return b.triangle_normal[site];
+  if (has_face_sites(q)) return triangle_normal(b, site);
   if (site < b.node.size()) return b.node_normal[site];
   const auto& [s, t] = b.topology->edge_triangle[site - b.node.size()];
   // Eigen leaves a zero vector (the faces are folded flat on each other) as it is.
-  return (b.triangle_normal[s] + b.triangle_normal[t]).normalized();
+  return (triangle_normal(b, s) + triangle_normal(b, t)).normalized();
 }
 
 /// True if surfaces with these outward normals can be in contact. Normals at right angles still

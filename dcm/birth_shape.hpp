@@ -3,9 +3,9 @@
 /// course of mitosis, so that division makes no force jump.
 
 #include <span>
-#include <vector>
 
 #include "core/numbers/ramp.hpp"
+#include "core/numbers/shared_numbers.hpp"
 #include "core/vec.hpp"
 #include "geometry/topology.hpp"
 
@@ -20,9 +20,9 @@ inline constexpr double kForgetShape = 3600;
 struct BirthShape {
   Ramp weight = Ramp::constant(0);  ///< from 1 at birth to 0 after mitosis
   double area = 1;                  ///< ratio of the whole surface
-  std::vector<double> edge;         ///< [n_edge] ratios of lengths; empty: none
-  std::vector<double> triangle;     ///< [n_triangle] ratios of areas; empty: none
-  std::vector<double> link;         ///< [n_node of the nucleus] lengths of its links; empty: all 1
+  SharedNumbers edge;               ///< [n_edge] ratios of lengths; empty: none
+  SharedNumbers triangle;           ///< [n_triangle] ratios of areas; empty: none
+  SharedNumbers link;               ///< [n_node of the nucleus] lengths of its links; empty: all 1
 
   bool is_forgotten(double time) const { return edge.empty() || !(weight.at(time) > 0); }
 };

@@ -6,7 +6,7 @@ namespace acinus::dcm {
 namespace {
 
 /// Ratios of one cell among those of its group.
-void fill_lane(std::vector<double>& group, const std::vector<double>& ratio, double weight,
+void fill_lane(std::vector<double>& group, const SharedNumbers& ratio, double weight,
                std::size_t lane) {
   if (group.empty()) group.assign(ratio.size() * kLanes, 1.0);
   for (std::size_t k = 0; k < ratio.size(); ++k)
@@ -77,6 +77,10 @@ void refresh_lane_data(const State& state, double time, LaneData& data) {
     fill_lane(data.edge[l / kLanes], birth.edge, weight, l % kLanes);
     fill_lane(data.triangle[l / kLanes], birth.triangle, weight, l % kLanes);
   }
+  // Most groups have neither: birth shapes are soon forgotten.
+  for (auto* factors : {&data.edge, &data.triangle, &data.tension, &data.length})
+    for (std::vector<double>& of_group : *factors)
+      if (of_group.empty()) of_group.shrink_to_fit();
   refresh_nucleus_lanes(state, time, data);
 }
 

@@ -39,6 +39,17 @@ bool passes_through(const Point& from, const Point& to, const Triangle& t) {
   return first != CGAL::COPLANAR && turn(1, 2) == first && turn(2, 0) == first;
 }
 
+/// Boxes in CGAL's algorithm, by pointer: it copies and sorts them.
+struct BoxPointerTraits {
+  using Box_parameter = const Box*;
+  using NT = double;
+  using ID = const Box*;
+  static double min_coord(const Box* b, int axis) { return b->low[axis]; }
+  static double max_coord(const Box* b, int axis) { return b->high[axis]; }
+  static const Box* id(const Box* b) { return b; }
+  static int dimension() { return 3; }
+};
+
 double triangle_quality(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double edges = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
   return edges > 0 ? 2 * std::sqrt(3.0) * (b - a).cross(c - a).norm() / edges : 0.0;
@@ -53,24 +64,28 @@ struct AuditBody::Surface {
   Tree tree;
 };
 
-std::vector<std::pair<int, int>> meeting_boxes(std::span<const Box> box) {
-  using Handle =
-      CGAL::Box_intersection_d::Box_with_handle_d<double, 3, const Box*,
-                                                  CGAL::Box_intersection_d::ID_FROM_HANDLE>;
+void for_each_meeting(std::span<const Box> box,
+                      const std::function<void(std::size_t, std::size_t)>& f) {
+  using Predicates = CGAL::Box_intersection_d::Predicate_traits_d<BoxPointerTraits, true>;
   constexpr std::ptrdiff_t kSweep = 500;  // so few are sorted along one axis and swept
-  std::vector<Handle> handle;
-  handle.reserve(box.size());
-  for (const Box& b : box)
-    handle.emplace_back(
-        CGAL::Bbox_3(b.low.x(), b.low.y(), b.low.z(), b.high.x(), b.high.y(), b.high.z()), &b);
-  const auto number_of = [&](const Handle& h) { return static_cast<int>(h.handle() - box.data()); };
-  std::vector<std::pair<int, int>> pair;
-  CGAL::box_self_intersection_d(
-      handle.begin(), handle.end(),
-      [&](const Handle& a, const Handle& b) {
-        pair.push_back(std::minmax({number_of(a), number_of(b)}));
+  std::vector<const Box*> one(box.size());
+  for (std::size_t k = 0; k < box.size(); ++k) one[k] = &box[k];
+  std::vector<const Box*> other = one;
+  const auto number_of = [&](const Box* b) { return static_cast<std::size_t>(b - box.data()); };
+  CGAL::box_intersection_custom_predicates_d(
+      one.begin(), one.end(), other.begin(), other.end(),
+      [&](const Box* a, const Box* b) {
+        const auto [i, j] = std::minmax({number_of(a), number_of(b)});
+        f(i, j);
       },
-      kSweep, CGAL::Box_intersection_d::CLOSED);
+      Predicates(), kSweep, CGAL::Box_intersection_d::COMPLETE);
+}
+
+std::vector<std::pair<int, int>> meeting_boxes(std::span<const Box> box) {
+  std::vector<std::pair<int, int>> pair;
+  for_each_meeting(box, [&](std::size_t i, std::size_t j) {
+    pair.emplace_back(static_cast<int>(i), static_cast<int>(j));
+  });
   std::ranges::sort(pair);
   return pair;
 }
@@ -81,6 +96,10 @@ AuditBody::AuditBody(std::span<const Vec3> nodes, std::span<const std::array<int
       surface_(std::make_unique<Surface>()) {
   sample.assign(nodes.begin(), nodes.end());
   sample.reserve(nodes.size() + triangles.size() * 5 / 2);
+  surface_->node.reserve(nodes.size());
+  surface_->face.reserve(triangles.size());
+  surface_->triangle.reserve(triangles.size());
+  edge.reserve(triangles.size() * 3 / 2);
   for (const Vec3& x : nodes) surface_->node.push_back(to_point(x));
   if (nodes.empty()) return;
   box = segment_box(nodes[0], nodes[0]);

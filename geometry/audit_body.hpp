@@ -2,6 +2,8 @@
 /// Exact geometric queries on one closed triangle surface. CGAL stays in the .cpp.
 
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <utility>
@@ -11,6 +13,10 @@
 #include "core/vec.hpp"
 
 namespace acinus::geometry {
+
+/// Calls f(i, j), i < j, for all boxes that overlap, in no particular order. Cost: n log^3 n.
+void for_each_meeting(std::span<const Box> box,
+                      const std::function<void(std::size_t, std::size_t)>& f);
 
 /// Index pairs i < j of boxes that overlap, ascending.
 std::vector<std::pair<int, int>> meeting_boxes(std::span<const Box> box);

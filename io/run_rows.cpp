@@ -2,6 +2,8 @@
 
 #include <xxhash.h>
 
+#include <numeric>
+
 namespace acinus::io {
 namespace {
 
@@ -61,12 +63,8 @@ void write_topology(FrameWrite& w) {
   const Frame& frame = w.frame;
   const FrameIndex* last = w.last;
   FrameIndex& index = w.index;
-  std::vector<std::int64_t> connectivity;
-  connectivity.reserve(index.n_connectivity);
-  for (const auto& triangle : frame.triangle)
-    connectivity.insert(connectivity.end(), triangle.begin(), triangle.end());
-  for (std::int64_t s = 0; s < frame.n_sphere; ++s) connectivity.push_back(frame.n_mesh_node + s);
-  w.hash.topology = hash_of(connectivity, static_cast<std::uint64_t>(frame.n_sphere));
+  w.hash.topology = hash_of(frame.triangle,
+                            hash_of(std::vector<std::int64_t>{frame.n_mesh_node, frame.n_sphere}));
   if (last != nullptr && w.last_hash.known && w.hash.topology == w.last_hash.topology &&
       last->n_point == index.n_point && last->n_cell == index.n_cell &&
       last->n_connectivity == index.n_connectivity) {
@@ -85,12 +83,20 @@ void write_topology(FrameWrite& w) {
         round_up(last->cell_offset + last->n_cell + index.part, w.filtered) - index.part;
   }
   const auto n_triangle = std::ssize(frame.triangle);
-  std::vector<std::int64_t> offset{0};
+  std::vector<std::int64_t> sphere(frame.n_sphere), offset;
+  std::iota(sphere.begin(), sphere.end(), frame.n_mesh_node);
+  offset.reserve(index.n_cell + 1);
+  offset.push_back(0);
   for (std::int64_t c = 0; c < index.n_cell; ++c)
     offset.push_back(offset.back() + (c < n_triangle ? 3 : 1));
   std::vector<std::uint8_t> type(n_triangle, kTriangleType);
   type.resize(index.n_cell, kVertexType);
-  w.file.write_rows<std::int64_t>("/VTKHDF/Connectivity", index.connectivity_offset, connectivity);
+  if (n_triangle > 0)
+    w.file.write_rows<std::int64_t>("/VTKHDF/Connectivity", index.connectivity_offset,
+                                    std::span(frame.triangle.front().data(), 3 * n_triangle));
+  if (!sphere.empty())
+    w.file.write_rows<std::int64_t>("/VTKHDF/Connectivity",
+                                    index.connectivity_offset + 3 * n_triangle, sphere);
   w.file.write_rows<std::int64_t>("/VTKHDF/Offsets", index.cell_offset + index.part, offset);
   w.file.write_rows<std::uint8_t>("/VTKHDF/Types", index.cell_offset, type);
   w.file.write_row<std::int64_t>("/VTKHDF/NumberOfPoints", index.part, index.n_point);

@@ -158,13 +158,13 @@ ACINUS_KERNEL void multiply_pairs(const PointPairs& pairs, const ShareLists& sha
     }
 }
 
-void add_forces(const LinkSet<Link>& set, std::span<const LinkLoad> load, bool external,
+void add_forces(const LinkSet<Link>& set, const LinkForce& force, bool external,
                 Packed<double>* y) {
   for (const std::vector<Share>& list : set.share)
     for (const Share s : list) {
       const Link& l = set.link[s.link];
       if (exists(l) == external) continue;
-      const Vec3 v = load[s.link].force * load[s.link].normal;
+      const Vec3 v = force(s.link);
       const Four<double> f = {v.x(), v.y(), v.z(), 0};
       if (s.a) scatter(l.a, f, y);
       if (s.b && !external) scatter(l.b, -f, y);

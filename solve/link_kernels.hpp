@@ -43,8 +43,7 @@ void multiply_links(const LinkSet<PointLink>& set, LinkScales scales, const Pack
                     Packed<float>* y);
 
 /// Adds to y the forces of contacts between cells, or of contacts with boundary.
-void add_forces(const LinkSet<Link>& set, std::span<const LinkLoad> load, bool external,
-                Packed<double>* y);
+void add_forces(const LinkSet<Link>& set, const LinkForce& force, bool external, Packed<double>* y);
 
 /// True if a contact contributes to the matrix.
 template <class L>

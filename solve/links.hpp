@@ -6,7 +6,9 @@
 /// weights. The relative vector is r = x_a - x_b; side b has no unknowns when it is boundary.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/numbers/lanes.hpp"
@@ -53,20 +55,21 @@ inline void set_law(double stiffness, double friction, double gap, const Vec3& n
   link.gap = static_cast<float>(gap);
 }
 
-/// Force of a contact on side a: force * normal.
-struct LinkLoad {
-  Vec3 normal = Vec3::Zero();
-  double force = 0;  ///< nN, positive pushes apart
+/// Origin of a link: the contact that has its force and exact normal, and its law when closed.
+struct LinkLaw {
   /// Slope of the law of the closed gap, force = -closed_stiffness * gap; nN/um. 0: no such law.
   double closed_stiffness = 0;
   double clearance = 0;       ///< um, distance to that branch; not positive: the contact is on it
   std::uint32_t contact = 0;  ///< its index in the list of contacts
 };
 
+/// Force of a link on its side a, nN, by the index of the link.
+using LinkForce = std::function<Vec3(std::size_t)>;
+
 /// Contacts with up to three points a side, sorted by the cell of side a.
 struct Links {
   std::vector<Link> link;
-  std::vector<LinkLoad> load;  ///< [n_link] force of the same contact
+  std::vector<LinkLaw> law;  ///< [n_link]
   /// [n_link] 1: takes its closed law although it was open; see coupling/step/active_set.hpp.
   /// Empty: none.
   std::vector<std::uint8_t> closed;
@@ -74,7 +77,7 @@ struct Links {
   std::size_t size() const { return link.size(); }
   void resize(std::size_t n) {
     set_size(link, n);
-    set_size(load, n);
+    set_size(law, n);
     closed.clear();
   }
   bool is_closed(std::size_t l) const { return !closed.empty() && closed[l] != 0; }

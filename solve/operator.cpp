@@ -201,6 +201,13 @@ void Operator::start(const System& system) {
   merged_ = false;
 }
 
+void Operator::release() {
+  merge_ = {};
+  merger_ = {};
+  merged_ = false;
+  scratch_ = std::vector<Line>();  // assigning {} would keep the memory
+}
+
 void Operator::prepare(const System& system) {
   start(system);
   share_links(true);
@@ -315,7 +322,7 @@ void Operator::apply_external(std::span<const double> x, std::span<double> y,
   });
 }
 
-void Operator::add_link_forces(System& system) {
+void Operator::add_link_forces(System& system, const LinkForce& force) {
   start(system);
   share_links(false);
   Packed<double>* const y = packed<double>().y;
@@ -325,7 +332,7 @@ void Operator::add_link_forces(System& system) {
       for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
         std::fill_n(y + row * kLanes, n * kLanes, Packed<double>{});
       });
-      add_forces(links_of(range), system.links.load, external, y);
+      add_forces(links_of(range), force, external, y);
       for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
         add_packed(y + row * kLanes, n, to->data() + row * kPointStride);
       });

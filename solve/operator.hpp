@@ -38,6 +38,10 @@ class Operator {
   /// elements and links.
   void prepare(const System& system);
 
+  /// Frees what prepare makes anew: the merged contacts and the scratch of products. The next call
+  /// is to be prepare or add_link_forces.
+  void release();
+
   /// Product y = A x; returns x . y. Collective, like all functions that return a sum over all
   /// cells.
   template <class T = double>
@@ -93,7 +97,7 @@ class Operator {
 
   /// Adds the force of every link to its points: to force, or to external_force where one side is
   /// boundary. Changes the right-hand side, not the matrix: prepare comes after.
-  void add_link_forces(System& system);
+  void add_link_forces(System& system, const LinkForce& force);
 
   const System& system() const { return *system_; }
   std::size_t n_sent_points() const { return exchange_.n_sent(); }  ///< sent in one product

@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "core/parallel/make_room.hpp"
 #include "core/parallel/threads.hpp"
 #include "solve/link_kernels.hpp"
 
@@ -177,10 +178,9 @@ class RigidModes {
   }
 
   /// Replaces the rotation part of the matrices by that of the whole operator. Groups share no
-  /// link, so one product serves the same mode of all of them.
-  void project_rotations() {
-    work_.mode.resize(position_.size());
-    work_.product.resize(position_.size());
+  /// link, so one product serves the same mode of all of them.   @param product  scratch
+  void project_rotations(std::span<double> product) {
+    set_size(work_.mode, position_.size());
     for (RigidGroup& g : groups_) g.matrix.bottomRightCorner<3, 3>().setZero();
     for (int axis = 0; axis < 3; ++axis) {
       for_each_own_number(s_, [&](std::size_t k) { work_.mode[k] = 0; });
@@ -188,11 +188,10 @@ class RigidModes {
         if (groups_[g].correct)
           store_point(work_.mode.data(), a, Vec3::Unit(axis).cross(at(a) - groups_[g].center));
       });
-      op_.apply(work_.mode, work_.product);
+      op_.apply(work_.mode, product);
       work_.sums.sum<3>(
           [&](Address a, std::size_t g, std::array<double, 3>& sum) {
-            const Vec3 turn =
-                (at(a) - groups_[g].center).cross(load_point(work_.product.data(), a));
+            const Vec3 turn = (at(a) - groups_[g].center).cross(load_point(product.data(), a));
             for (std::size_t k = 0; k < 3; ++k) sum[k] += turn[static_cast<int>(k)];
           },
           [&](std::size_t g, const std::array<double, 3>& sum) {
@@ -279,15 +278,15 @@ class RigidModes {
 
 }  // namespace
 
-RigidResult correct_rigid_modes(const Operator& op, std::span<const double> residual,
+RigidResult correct_rigid_modes(const Operator& op, const RigidVectors& vectors,
                                 std::span<double> x, const RigidCells& cells, double threshold,
                                 RigidWorkspace& work) {
   RigidModes modes(op, cells, work);
-  modes.compute_bounds(residual);
+  modes.compute_bounds(vectors.residual);
   RigidResult result;
   result.corrected_groups = modes.choose(threshold);
   if (result.corrected_groups == 0) return result;
-  modes.project_rotations();
+  modes.project_rotations(vectors.product);
   result.largest_move = modes.correct(x);
   return result;
 }

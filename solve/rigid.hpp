@@ -39,7 +39,13 @@ struct RigidWorkspace {
   std::vector<double> squared_reach;  ///< [group] um^2
   std::vector<int> tie_of_cell;       ///< [n_block * kLanes] index of tie, -1: none
   std::vector<Mat6> tie;              ///< resistance of the boundary to the motion of a cell
-  std::vector<double> mode, product;
+  std::vector<double> mode;           ///< scratch; free for other use between solves
+};
+
+/// Vectors of the solve, [n_row][3][lane].
+struct RigidVectors {
+  std::span<const double> residual;  ///< b - A x, in double
+  std::span<double> product;         ///< scratch
 };
 
 struct RigidResult {
@@ -54,9 +60,8 @@ struct RigidCells {
 };
 
 /// Corrects x (the displacement) for A x = b.
-/// @param residual  [n_row][3][lane] b - A x, in double
 /// @param threshold  um, groups whose rigid error is provably below it are not corrected
-RigidResult correct_rigid_modes(const Operator& op, std::span<const double> residual,
+RigidResult correct_rigid_modes(const Operator& op, const RigidVectors& vectors,
                                 std::span<double> x, const RigidCells& cells, double threshold,
                                 RigidWorkspace& work);
 

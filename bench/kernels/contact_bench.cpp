@@ -34,7 +34,7 @@ std::vector<PointAndTriangle> listed_pairs() {
           point_position(a, point_stencil(a, contact::Quadrature::kThreePoint, list.point[k]));
       for (std::size_t c = list.start[k]; c < list.start[k + 1]; ++c) {
         if (pair.size() == kPairs) return pair;
-        const auto [i, j, m] = (*b.triangle)[list.triangle[c]];
+        const auto [i, j, m] = (*b.triangle)[list.near.triangle_at(c)];
         pair.push_back({p, b.node[i], b.node[j], b.node[m]});
       }
     }

@@ -94,7 +94,7 @@ BenchRow measure_parts(int count, const std::string& quadrature) {
   double listed_points = 0, listed_triangles = 0;
   for (const contact::Candidates& c : w.dcm.lists.pair) {
     listed_points += static_cast<double>(c.point.size());
-    listed_triangles += static_cast<double>(c.triangle.size());
+    listed_triangles += static_cast<double>(c.near.size());
   }
   w.system.links.clear();
   w.op.prepare(w.system);

@@ -12,7 +12,9 @@ namespace acinus {
 template <class V>
 void make_room(V& v, std::size_t n) {
   const std::size_t all = v.size() + n;
-  if (all > v.capacity()) v.reserve(all + all / 16);
+  if (all <= v.capacity()) return;
+  if (v.empty()) v = V();  // nothing to move: the old memory is free before the new is taken
+  v.reserve(all + all / 16);
 }
 
 /// Resizes v to n elements with this growth of the capacity.

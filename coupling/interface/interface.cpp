@@ -35,11 +35,11 @@ PairLaw law_of(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
       compute_compliance(in.dcm.options.repulsion,
                          {in.cbm.cells.radius[sphere], in.cbm.state.young[sphere], b.poisson,
                           modulus[sphere], b.correction.corrects() ? &b.correction : nullptr},
-                         k.depth);
+                         k.depth());
   return {{in.dcm.options.adhesion_factor * std::sqrt(a.adhesion * b.adhesion), under.stiffness,
            in.dcm.options.range_factor * dcm_work.body[body].topology->mean_rest_length *
                in.dcm.lanes.radius[lane]},
-          k.gap < 0 ? under.slope * k.depth : 0};
+          k.gap < 0 ? under.slope * k.depth() : 0};
 }
 
 /// Contacts of one surface with one sphere.
@@ -66,14 +66,13 @@ void find_pair(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
                          .point = point,
                          .b = pair.second,
                          .partner = contact::Partner::kSphere,
-                         .depth = 0,
                          .normal = d / distance,
                          .gap = gap});
     }
   }
   double depth = 0;
   for (const Contact& k : found) depth = std::max(depth, -k.gap);
-  for (Contact& k : found) k.depth = depth;
+  for (Contact& k : found) k.place_a = Contact::pack(depth);
 }
 
 /// Contacts of the triangles of one surface with one sphere.
@@ -239,10 +238,9 @@ void add_interface_loads(const InterfaceInput& in, const dcm::ContactWorkspace& 
     link.b = sphere_side(in, k);
     const auto contact_number = static_cast<std::uint32_t>(number++);
     if (dcm::is_triangle_contact(in.dcm.options, k)) {
-      dcm::complete_triangle_contact(in.dcm, dcm_work,
-                                     in.params.friction_factor * in.params.friction, k, link,
-                                     links.load[at]);
-      links.load[at++].contact = contact_number;
+      dcm::complete_triangle_contact(
+          in.dcm, dcm_work, in.params.friction_factor * in.params.friction, k, link, links.law[at]);
+      links.law[at++].contact = contact_number;
       continue;
     }
     const contact::SurfaceBody& body = dcm_work.body[k.a];
@@ -264,7 +262,7 @@ void add_interface_loads(const InterfaceInput& in, const dcm::ContactWorkspace& 
     k.friction = static_cast<float>(friction);
     link.a = dcm::side_a(in.dcm, dcm_work, k);
     solve::set_law(k.slope, friction, k.gap, k.normal, link);
-    links.load[at] = {k.normal, k.force, area * law.cohesive.repulsion, k.gap, contact_number};
+    links.law[at] = {area * law.cohesive.repulsion, k.gap, contact_number};
     ++at;
   }
 }

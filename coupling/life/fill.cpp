@@ -55,8 +55,8 @@ Filling fill(const World& world, int type, const geometry::Topology& topology,
   shape.weight = Ramp::constant(1);
   shape.area = geometry::compute_area(envelope.node, envelope.triangle) /
                (topology.rest_area * radius * radius);
-  shape.edge.assign(topology.edge.size(), std::sqrt(shape.area));
-  shape.triangle.assign(topology.triangle.size(), shape.area);
+  shape.edge = std::vector<double>(topology.edge.size(), std::sqrt(shape.area));
+  shape.triangle = std::vector<double>(topology.triangle.size(), shape.area);
   s.clock.step = kFirstFillStep;
 
   Filling filling;

@@ -189,7 +189,10 @@ LifeReport turn_over(World& world, Workspace& work) {
   LifeReport report;
   if (world.state.cycle.empty()) return report;
   State before;
-  if (has_doubled_shell(world.state)) before = world.state;
+  if (has_doubled_shell(world.state)) {
+    work.linearisation.state = {};  // room for the two states that there are now
+    before = world.state;
+  }
   Plan plan = make_plan(world, work);
   if (plan.empty()) return report;
   const auto scope = work.timings.scope("life");

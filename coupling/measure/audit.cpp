@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
+#include <tuple>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel/threads.hpp"
 #include "coupling/measure/audit_depth.hpp"
+#include "coupling/measure/audit_queries.hpp"
 #include "geometry/audit_body.hpp"
 #include "geometry/segment_shape.hpp"
 
@@ -20,12 +21,6 @@ namespace {
 /// Least distance of sisters, in radii of cells about to divide: they are born 2 (R_m - R_d) apart
 /// (cbm::divide) and grow in place.
 const double kSisterDistance = 2 - std::cbrt(4.0);
-
-double sphere_depth(const geometry::AuditBody& cell, const AuditSphere& sphere) {
-  const double distance = cell.distance(sphere.center);
-  const double sign = cell.locate(sphere.center) == geometry::Location::kInside ? 1 : -1;
-  return sphere.radius + sign * distance;
-}
 
 void keep_worst(WorstPair& worst, double depth, std::int64_t a, std::int64_t b) {
   if (depth > worst.depth_um) worst = {depth, {a, b}};
@@ -43,10 +38,10 @@ void check_finite(std::span<const Vec3> nodes, const std::string& what) {
           Exit::kCannotContinue);
 }
 
-/// Bodies prepared for a frame.
+/// Boxes of the cells and the segments of the vessels.
 struct Bodies {
-  std::vector<geometry::AuditBody> cell;
-  std::vector<RoundCone> cone;
+  std::vector<Box> cell;
+  std::vector<RoundCone> cone;  ///< empty where cells touch the surface of the vessels
 };
 
 Bodies prepare(const AuditFrame& frame) {
@@ -54,11 +49,9 @@ Bodies prepare(const AuditFrame& frame) {
   for (const AuditSphere& s : frame.spheres)
     check_finite(std::span(&s.center, 1), fmt::format("sphere {}", s.id));
   Bodies bodies;
-  std::vector<std::optional<geometry::AuditBody>> cell(frame.meshes.size());
-  for_each_part(cell.size(), [&](std::size_t c) {
-    cell[c].emplace(frame.meshes[c].node, frame.meshes[c].triangle);
-  });
-  for (std::optional<geometry::AuditBody>& c : cell) bodies.cell.push_back(std::move(*c));
+  bodies.cell.resize(frame.meshes.size());
+  for (std::size_t c = 0; c < bodies.cell.size(); ++c)
+    for (const Vec3& x : frame.meshes[c].node) bodies.cell[c].include(x);
   if (!frame.vessels || frame.vessel_surface) return bodies;
   const geometry::Network& net = *frame.vessels;
   for (std::size_t s = 0; s < net.segment.size(); ++s)
@@ -77,44 +70,6 @@ std::vector<T> share_among(const Ranks& ranks, std::size_t n, const F& f) {
   for_each_part(own.size(), [&](std::size_t k) { own[k] = f(first + k); });
   ranks.gather<T>(own, all);
   return all;
-}
-
-void audit_shapes(const AuditFrame& frame, const Bodies& bodies, const Ranks& ranks,
-                  AuditResult& result) {
-  const std::vector<char> crosses = share_among<char>(
-      ranks, bodies.cell.size(),
-      [&](std::size_t c) { return static_cast<char>(bodies.cell[c].self_intersects()); });
-  for (std::size_t c = 0; c < bodies.cell.size(); ++c) {
-    const geometry::AuditBody& cell = bodies.cell[c];
-    result.n_inverted += cell.volume <= 0;
-    result.n_self_intersecting += crosses[c];
-    if (cell.quality < result.min_triangle_quality || result.worst_triangle_cell < 0) {
-      result.min_triangle_quality = cell.quality;
-      result.worst_triangle_cell = frame.meshes[c].id;
-    }
-  }
-}
-
-/// Walls and envelopes: every cell has to be on their allowed side, near or not.
-void audit_walls(const AuditFrame& frame, const Bodies& bodies, AuditResult& result) {
-  for (std::size_t c = 0; c < bodies.cell.size(); ++c) {
-    const AuditMesh& cell = frame.meshes[c];
-    std::int64_t wall = 0;
-    const auto keep = [&](double depth) {
-      keep_worst(result.dcm_wall, depth, cell.id, wall);
-      keep_penetration(result, depth, cell.newborn);
-    };
-    for (const AuditWall& w : frame.walls) {
-      for (const Vec3& x : cell.node) keep(depth_behind(w, x, 0));
-      ++wall;
-    }
-    for (std::size_t f = 0; f < frame.static_meshes.size(); ++f, ++wall)
-      if (frame.static_meshes[f].inside) {
-        const geometry::AuditBody &body = bodies.cell[c], &fixed = frame.static_meshes[f].body;
-        keep(surface_depth(body, fixed, geometry::Location::kOutside));
-        keep(surface_depth(fixed, body, geometry::Location::kInside));
-      }
-  }
 }
 
 /// Depth of a sphere beyond the surface of a closed body on the forbidden side, um.
@@ -140,72 +95,22 @@ void audit_spheres_at_walls(const AuditFrame& frame, AuditResult& result) {
   }
 }
 
-/// Cells and spheres at the surface of the vessels.
-void audit_vessel_surface(const AuditFrame& frame, const Bodies& bodies, const Ranks& ranks,
-                          AuditResult& result) {
+/// Spheres at the surface of the vessels.
+void audit_vessel_surface(const AuditFrame& frame, const Ranks& ranks, AuditResult& result) {
   if (!frame.vessel_surface) return;
   const geometry::AuditBody& surface = *frame.vessel_surface;
-  const std::size_t n_cell = bodies.cell.size();
   const std::vector<double> depth =
-      share_among<double>(ranks, n_cell + frame.spheres.size(), [&](std::size_t k) {
-        if (k < n_cell)
-          return bodies.cell[k].box.overlaps(surface.box) ? body_depth(bodies.cell[k], surface) : 0;
-        const AuditSphere& s = frame.spheres[k - n_cell];
+      share_among<double>(ranks, frame.spheres.size(), [&](std::size_t k) {
+        const AuditSphere& s = frame.spheres[k];
         if (!surface.box.overlaps(sphere_box(s.center, s.radius))) return 0.0;
         return depth_in_fixed(s, surface, geometry::Location::kInside);
       });
   for (std::size_t k = 0; k < depth.size(); ++k) {
-    const bool cell = k < n_cell;
-    WorstPair& worst = cell ? result.dcm_vessel : result.cbm_vessel;
-    if (cell) keep_penetration(result, depth[k], frame.meshes[k].newborn);
-    if (depth[k] <= worst.depth_um) continue;
-    const Vec3 at = cell ? Vec3(0.5 * (bodies.cell[k].box.low + bodies.cell[k].box.high))
-                         : frame.spheres[k - n_cell].center;
-    keep_worst(worst, depth[k], cell ? frame.meshes[k].id : frame.spheres[k - n_cell].id,
-               geometry::nearest_segment(*frame.vessels, at).segment);
+    if (depth[k] <= result.cbm_vessel.depth_um) continue;
+    const AuditSphere& s = frame.spheres[k];
+    keep_worst(result.cbm_vessel, depth[k], s.id,
+               geometry::nearest_segment(*frame.vessels, s.center).segment);
   }
-}
-
-struct Pair {
-  enum class PairKind {
-    kCellCell,
-    kCellSphere,
-    kCellVessel,
-    kCellFixed,
-    kSphereSphere,
-    kSphereVessel
-  } kind;
-  std::size_t a, b;
-  double depth = 0;
-};
-
-std::vector<Pair> find_pairs(const AuditFrame& frame, const Bodies& bodies) {
-  std::vector<Box> box;
-  for (const geometry::AuditBody& b : bodies.cell) box.push_back(b.box);
-  for (const AuditSphere& s : frame.spheres) box.push_back(sphere_box(s.center, s.radius));
-  for (const RoundCone& c : bodies.cone) box.push_back(c.box());
-  for (const AuditStaticMesh& s : frame.static_meshes) box.push_back(s.body.box);
-  const std::size_t sphere = bodies.cell.size(), cone = sphere + frame.spheres.size();
-  const std::size_t fixed = cone + bodies.cone.size();
-  std::vector<Pair> pair;
-  for (const auto& [i, j] : geometry::meeting_boxes(box)) {  // i < j: the cell comes first
-    const std::size_t a = i, b = j;
-    if (a < sphere) {
-      if (b < sphere)
-        pair.push_back({Pair::PairKind::kCellCell, a, b});
-      else if (b < cone)
-        pair.push_back({Pair::PairKind::kCellSphere, a, b - sphere});
-      else if (b < fixed)
-        pair.push_back({Pair::PairKind::kCellVessel, a, b - cone});
-      else if (!frame.static_meshes[b - fixed].inside)
-        pair.push_back({Pair::PairKind::kCellFixed, a, b - fixed});
-    } else if (a < cone && b < cone) {
-      pair.push_back({Pair::PairKind::kSphereSphere, a - sphere, b - sphere});
-    } else if (a < cone && b < fixed) {
-      pair.push_back({Pair::PairKind::kSphereVessel, a - sphere, b - cone});
-    }
-  }
-  return pair;
 }
 
 double sphere_overlap(const AuditSphere& a, const AuditSphere& b) {
@@ -216,60 +121,132 @@ double sphere_overlap(const AuditSphere& a, const AuditSphere& b) {
   return weak || distance >= kSisterDistance * 0.5 * (a.radius + b.radius) ? 0 : depth;
 }
 
-double pair_depth(const AuditFrame& frame, const Bodies& bodies, const Pair& pair) {
-  switch (pair.kind) {
-    case Pair::PairKind::kCellCell:
-      return body_depth(bodies.cell[pair.a], bodies.cell[pair.b]);
-    case Pair::PairKind::kCellSphere:
-      return sphere_depth(bodies.cell[pair.a], frame.spheres[pair.b]);
-    case Pair::PairKind::kCellVessel:
-      return vessel_depth(bodies.cell[pair.a], bodies.cone[pair.b]);
-    case Pair::PairKind::kCellFixed:
-      return body_depth(bodies.cell[pair.a], frame.static_meshes[pair.b].body);
-    case Pair::PairKind::kSphereSphere:
-      return sphere_overlap(frame.spheres[pair.a], frame.spheres[pair.b]);
-    case Pair::PairKind::kSphereVessel:
-      return frame.spheres[pair.a].radius +
-             cone_depth(bodies.cone[pair.b], frame.spheres[pair.a].center);
+/// Deepest pair so far; of equal depths the first pair in ascending order.
+struct DeepestPair {
+  double depth = 0;
+  std::pair<std::size_t, std::size_t> pair;
+
+  void keep(double d, std::size_t a, std::size_t b) {
+    const std::pair now(a, b);
+    if (d < depth || !(d > 0) || (d == depth && pair < now)) return;
+    depth = d;
+    pair = now;
   }
-  return 0;
+};
+
+/// Queries about cells, ascending: of each cell by itself, then with its surroundings, then with
+/// the bodies whose boxes meet its own. Pairs of spheres, and of spheres with vessels, are audited
+/// at once, without a list: they are many, and cheap.
+std::vector<AuditQuery> find_queries(const AuditFrame& frame, const Bodies& bodies,
+                                     AuditResult& result) {
+  using Partner = AuditPartner;
+  std::vector<Box> box = bodies.cell;
+  for (const AuditSphere& s : frame.spheres) box.push_back(sphere_box(s.center, s.radius));
+  for (const RoundCone& c : bodies.cone) box.push_back(c.box());
+  for (const AuditStaticMesh& s : frame.static_meshes) box.push_back(s.body.box);
+  const std::size_t sphere = bodies.cell.size(), cone = sphere + frame.spheres.size();
+  const std::size_t fixed = cone + bodies.cone.size();
+  std::vector<AuditQuery> query;
+  for (std::size_t c = 0; c < sphere; ++c) {
+    query.push_back({Partner::kNone, c, 0});
+    for (std::size_t f = 0; f < frame.static_meshes.size(); ++f)
+      if (frame.static_meshes[f].inside) query.push_back({Partner::kEnvelope, c, f});
+    if (frame.vessel_surface != nullptr && bodies.cell[c].overlaps(frame.vessel_surface->box))
+      query.push_back({Partner::kVesselSurface, c, 0});
+  }
+  DeepestPair spheres, vessels;
+  geometry::for_each_meeting(box, [&](std::size_t a, std::size_t b) {  // a < b: cells come first
+    if (a < sphere) {
+      if (b < sphere)
+        query.push_back({Partner::kCell, a, b});
+      else if (b < cone)
+        query.push_back({Partner::kSphere, a, b - sphere});
+      else if (b < fixed)
+        query.push_back({Partner::kCone, a, b - cone});
+      else if (!frame.static_meshes[b - fixed].inside)
+        query.push_back({Partner::kFixed, a, b - fixed});
+    } else if (a < cone && b < cone) {
+      const std::size_t i = a - sphere, j = b - sphere;
+      spheres.keep(sphere_overlap(frame.spheres[i], frame.spheres[j]), i, j);
+    } else if (a < cone && b < fixed) {
+      const AuditSphere& s = frame.spheres[a - sphere];
+      vessels.keep(s.radius + cone_depth(bodies.cone[b - cone], s.center), a - sphere, b - cone);
+    }
+  });
+  std::ranges::sort(query, {}, [](const AuditQuery& q) { return std::tuple(q.a, q.partner, q.b); });
+  const auto& [i, j] = spheres.pair;
+  if (spheres.depth > 0)
+    keep_worst(result.cbm_cbm, spheres.depth, frame.spheres[i].id, frame.spheres[j].id);
+  if (vessels.depth > 0)
+    keep_worst(result.cbm_vessel, vessels.depth, frame.spheres[vessels.pair.first].id,
+               static_cast<std::int64_t>(vessels.pair.second));
+  return query;
 }
 
-void keep_pair(const AuditFrame& frame, const Pair& pair, AuditResult& result) {
-  const auto other = static_cast<std::int64_t>(pair.b);
-  const bool of_cell =
-      pair.kind != Pair::PairKind::kSphereSphere && pair.kind != Pair::PairKind::kSphereVessel;
-  const bool newborn = of_cell && frame.meshes[pair.a].newborn;
-  switch (pair.kind) {
-    case Pair::PairKind::kCellCell:
-      keep_penetration(result, pair.depth, newborn || frame.meshes[pair.b].newborn);
-      return keep_worst(result.dcm_dcm, pair.depth, frame.meshes[pair.a].id,
-                        frame.meshes[pair.b].id);
-    case Pair::PairKind::kCellSphere: {
-      const std::int64_t mesh = frame.meshes[pair.a].id, sphere = frame.spheres[pair.b].id;
-      const auto indentation = std::ranges::find_if(
-          frame.indentations,
-          [&](const KnownIndentation& d) { return d.mesh_id == mesh && d.sphere_id == sphere; });
-      const double explained =
-          indentation == frame.indentations.end() ? 0 : std::max(0.0, indentation->depth);
-      const double beyond = std::max(0.0, pair.depth - explained);
-      keep_penetration(result, beyond, newborn);
-      keep_worst(result.dcm_cbm_beyond_indentation, beyond, mesh, sphere);
-      return keep_worst(result.dcm_cbm, pair.depth, mesh, sphere);
+void keep_cell(const AuditMesh& cell, const AuditAnswer& answer, AuditResult& result) {
+  result.n_inverted += answer.volume <= 0;
+  result.n_self_intersecting += answer.self_intersects;
+  if (answer.quality < result.min_triangle_quality || result.worst_triangle_cell < 0) {
+    result.min_triangle_quality = answer.quality;
+    result.worst_triangle_cell = cell.id;
+  }
+}
+
+/// Walls, behind which no node may be, near or not.
+void audit_walls(const AuditFrame& frame, const AuditMesh& cell, AuditResult& result) {
+  for (std::size_t w = 0; w < frame.walls.size(); ++w)
+    for (const Vec3& x : cell.node) {
+      const double depth = depth_behind(frame.walls[w], x, 0);
+      keep_worst(result.dcm_wall, depth, cell.id, static_cast<std::int64_t>(w));
+      keep_penetration(result, depth, cell.newborn);
     }
-    case Pair::PairKind::kCellVessel:
-      keep_penetration(result, pair.depth, newborn);
-      return keep_worst(result.dcm_vessel, pair.depth, frame.meshes[pair.a].id, other);
-    case Pair::PairKind::kCellFixed: {
-      const auto before = static_cast<std::int64_t>(frame.walls.size());
-      keep_penetration(result, pair.depth, newborn);
-      return keep_worst(result.dcm_wall, pair.depth, frame.meshes[pair.a].id, before + other);
+}
+
+void keep_indentation(const AuditFrame& frame, const AuditMesh& cell, std::int64_t sphere,
+                      double depth, AuditResult& result) {
+  const auto indentation = std::ranges::find_if(frame.indentations, [&](const KnownIndentation& d) {
+    return d.mesh_id == cell.id && d.sphere_id == sphere;
+  });
+  const double explained =
+      indentation == frame.indentations.end() ? 0 : std::max(0.0, indentation->depth);
+  const double beyond = std::max(0.0, depth - explained);
+  keep_penetration(result, beyond, cell.newborn);
+  keep_worst(result.dcm_cbm_beyond_indentation, beyond, cell.id, sphere);
+  keep_worst(result.dcm_cbm, depth, cell.id, sphere);
+}
+
+void keep(const AuditFrame& frame, const Bodies& bodies, const AuditQuery& q,
+          const AuditAnswer& answer, AuditResult& result) {
+  using Partner = AuditPartner;
+  const AuditMesh& cell = frame.meshes[q.a];
+  const auto other = static_cast<std::int64_t>(q.b),
+             n_wall = static_cast<std::int64_t>(frame.walls.size());
+  const double depth = answer.depth;
+  switch (q.partner) {
+    case Partner::kNone:
+      keep_cell(cell, answer, result);
+      return audit_walls(frame, cell, result);
+    case Partner::kCell: {
+      const AuditMesh& second = frame.meshes[q.b];
+      keep_penetration(result, depth, cell.newborn || second.newborn);
+      return keep_worst(result.dcm_dcm, depth, cell.id, second.id);
     }
-    case Pair::PairKind::kSphereSphere:
-      return keep_worst(result.cbm_cbm, pair.depth, frame.spheres[pair.a].id,
-                        frame.spheres[pair.b].id);
-    case Pair::PairKind::kSphereVessel:
-      return keep_worst(result.cbm_vessel, pair.depth, frame.spheres[pair.a].id, other);
+    case Partner::kSphere:
+      return keep_indentation(frame, cell, frame.spheres[q.b].id, depth, result);
+    case Partner::kCone:
+      keep_penetration(result, depth, cell.newborn);
+      return keep_worst(result.dcm_vessel, depth, cell.id, other);
+    case Partner::kFixed:
+    case Partner::kEnvelope:
+      keep_penetration(result, depth, cell.newborn);
+      return keep_worst(result.dcm_wall, depth, cell.id, n_wall + other);
+    case Partner::kVesselSurface: {
+      keep_penetration(result, depth, cell.newborn);
+      if (depth <= result.dcm_vessel.depth_um) return;
+      const Vec3 at = 0.5 * (bodies.cell[q.a].low + bodies.cell[q.a].high);
+      return keep_worst(result.dcm_vessel, depth, cell.id,
+                        geometry::nearest_segment(*frame.vessels, at).segment);
+    }
   }
 }
 
@@ -287,16 +264,12 @@ geometry::AuditBody prepare_static_mesh(std::span<const Vec3> node,
 AuditResult audit(const AuditFrame& frame, const Ranks& ranks) {
   AuditResult result;
   const Bodies bodies = prepare(frame);
-  audit_shapes(frame, bodies, ranks, result);
-  audit_walls(frame, bodies, result);
-  audit_vessel_surface(frame, bodies, ranks, result);
+  const std::vector<AuditQuery> query = find_queries(frame, bodies, result);
+  const std::vector<AuditAnswer> answer =
+      answer_queries(frame, bodies.cell, bodies.cone, query, ranks);
+  for (std::size_t k = 0; k < query.size(); ++k) keep(frame, bodies, query[k], answer[k], result);
+  audit_vessel_surface(frame, ranks, result);
   audit_spheres_at_walls(frame, result);
-  std::vector<Pair> pairs = find_pairs(frame, bodies);
-  const std::vector<double> depth = share_among<double>(
-      ranks, pairs.size(), [&](std::size_t k) { return pair_depth(frame, bodies, pairs[k]); });
-  for (std::size_t k = 0; k < pairs.size(); ++k) pairs[k].depth = depth[k];
-  for (const Pair& pair : pairs)
-    keep_pair(frame, pair, result);  // in list order, whoever computed it
   result.max_overlap_cbm_um = result.cbm_cbm.depth_um;
   return result;
 }

@@ -11,30 +11,11 @@
 
 #include "core/parallel/ranks.hpp"
 #include "core/vec.hpp"
-#include "coupling/measure/audit_walls.hpp"
+#include "coupling/measure/audit_frame.hpp"
 #include "geometry/audit_body.hpp"
-#include "geometry/network.hpp"
 
 namespace acinus::coupling {
 
-struct AuditMesh {
-  std::int64_t id = 0;
-  std::span<const Vec3> node;                    ///< um
-  std::span<const std::array<int, 3>> triangle;  ///< closed, outward
-  bool newborn = false;                          ///< true while settling after birth
-};
-struct AuditSphere {
-  std::int64_t id = 0;
-  Vec3 center = Vec3::Zero();
-  double radius = 0;
-  double strength = 1;       ///< strength of its forces, see cbm::CellData
-  std::int64_t mother = -1;  ///< lineage; sisters start overlapped; -1: initial cell
-};
-/// Indentation of a sphere by a cell that their force explains.
-struct KnownIndentation {
-  std::int64_t mesh_id = 0, sphere_id = 0;
-  double depth = 0;  ///< um
-};
 /// Prepares a static closed mesh. The spans must outlive the result. Throws Error if a coordinate
 /// is not finite or the mesh is not closed.
 /// @param triangle  outward
@@ -42,23 +23,6 @@ struct KnownIndentation {
 geometry::AuditBody prepare_static_mesh(std::span<const Vec3> node,
                                         std::span<const std::array<int, 3>> triangle,
                                         const std::string& what);
-struct AuditStaticMesh {
-  geometry::AuditBody body;  ///< of prepare_static_mesh, expensive, once per run
-  bool inside = false;       ///< true: cells are inside it
-};
-
-/// Contents of a frame. Spans may be empty; they must outlive the call.
-struct AuditFrame {
-  std::span<const AuditMesh> meshes;
-  std::span<const AuditSphere> spheres;
-  std::span<const KnownIndentation> indentations;  ///< pairs not listed have none
-  const geometry::Network* vessels = nullptr;
-  /// Surface of the vessels, of prepare_static_mesh, if cells touch it; the segments then only name
-  /// the nearest one.
-  const geometry::AuditBody* vessel_surface = nullptr;
-  std::span<const AuditWall> walls;
-  std::span<const AuditStaticMesh> static_meshes;
-};
 
 struct WorstPair {
   double depth_um = 0;

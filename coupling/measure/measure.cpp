@@ -148,6 +148,7 @@ void observe(const World& world, Workspace& w) {
 
 std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
   std::vector<CellMeasure> cells;
+  cells.reserve(w.dcm.body.size() + world.state.cbm.n_cell());
   for (std::size_t k = 0; k < w.dcm.body.size(); ++k) cells.push_back(measure_surface(world, w, k));
   for (std::size_t c = 0; c < world.state.cbm.n_cell(); ++c)
     cells.push_back(measure_sphere(world, w, c));
@@ -170,15 +171,21 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
 NodeMeasure measure_nodes(const World& world, const Workspace& w) {
   const State& s = world.state;
   NodeMeasure n;
+  std::size_t n_node = 0;
+  for (const contact::SurfaceBody& b : w.dcm.body) n_node += b.topology->n_node;
+  n.force.reserve(n_node);
+  n.pressure.reserve(n_node);
+  n.tension.reserve(n_node);
   std::vector<double> contact(s.dcm.position.size(), 0.0);
   const solve::Links& links = w.system.links;
   for (std::size_t l = 0; l < links.size(); ++l) {
-    if (w.contacts.all[links.load[l].contact].partner == contact::Partner::kNucleus) continue;
+    const contact::Contact& k = w.contacts.all[links.law[l].contact];
+    if (k.partner == contact::Partner::kNucleus) continue;
     const solve::Stencil stencil = solve::stencil_of(links.link[l]);
-    const Vec3 f = links.load[l].force * links.load[l].normal;
-    for (int k = 0; k < stencil.n; ++k)
-      if (stencil.address[k] < contact.size())
-        add_point(contact.data(), stencil.address[k], stencil.weight[k] * f);
+    const Vec3 f = k.force * k.normal;
+    for (int m = 0; m < stencil.n; ++m)
+      if (stencil.address[m] < contact.size())
+        add_point(contact.data(), stencil.address[m], stencil.weight[m] * f);
   }
   for (std::size_t b = 0; b < w.dcm.body.size(); ++b) {
     const std::size_t lane = w.dcm.lane_of_body[b];

@@ -16,6 +16,9 @@ std::vector<InterfaceForce> interface_forces(const World& world, const Workspace
 /// assemble
 void list_sphere_pairs(const World& world, Workspace& work);
 
+/// Removes them again, and gives back their memory.
+void drop_sphere_pairs(Workspace& work);
+
 /// Stencil of the unknowns of both sides of a contact.   @pre assemble
 solve::Stencil stencil_of(const World& world, const Workspace& work,
                           const contact::Contact& contact);

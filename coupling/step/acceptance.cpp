@@ -186,13 +186,13 @@ double depth_after(const World& world, const Workspace& w, std::size_t l) {
   const double max_depth = world.params.dcm_contact.max_depth, range = -kDeepShare * max_depth;
   const double unfelt = world.params.numerics.adaptive ? -kControlledDepth : range;
   const solve::Link& link = w.system.links.link[l];
-  const solve::LinkLoad& load = w.system.links.load[l];
+  const solve::LinkLaw& law = w.system.links.law[l];
   const double gap = static_cast<double>(link.gap);
   if (gap > 0.5 * max_depth) return 0;
   const double end = gap_after(w, link);
   if (end - gap > -kDeepClosing) return 0;
-  const bool felt = w.system.links.is_closed(l) || load.clearance <= 0;
-  const bool deep = end < range || (!felt && clearance_at(end, link, load) < unfelt);
+  const bool felt = w.system.links.is_closed(l) || law.clearance <= 0;
+  const bool deep = end < range || (!felt && clearance_at(end, link, law) < unfelt);
   return deep ? -end : 0;
 }
 
@@ -206,7 +206,7 @@ struct DeepContact {
 
 DeepContact describe_contact(const World& world, const Workspace& w, std::size_t l) {
   const solve::Link& link = w.system.links.link[l];
-  const std::size_t number = w.system.links.load[l].contact;
+  const std::size_t number = w.system.links.law[l].contact;
   const contact::Contact& k = w.contacts.all[number];
   const contact::ContactKind kind = w.contacts.kind_of(number);
   DeepContact deep;

@@ -43,16 +43,20 @@ double largest_rest(const Workspace& w) {
   return std::sqrt(largest2);
 }
 
+/// Force and stiffness of a contact: by its own law, or by that of the closed gap.
+struct ActiveLaw {
+  double force, stiffness;
+};
+
 /// Replaces the law of a contact and adds the change of its force to the system.
-void replace_law(double stiffness, double force, solve::Link& link, solve::LinkLoad& load,
-                 solve::System& s) {
-  const Vec3 change = (force - load.force) * load.normal;
+void replace_law(const ActiveLaw& from, const ActiveLaw& to_law, const Vec3& normal,
+                 solve::Link& link, solve::System& s) {
+  const Vec3 change = (to_law.force - from.force) * normal;
   std::vector<double>& to = link.b.exists() ? s.force : s.external_force;
   const solve::Stencil stencil = solve::stencil_of(link);
   for (int k = 0; k < stencil.n; ++k)
     add_point(to.data(), stencil.address[k], stencil.weight[k] * change);
-  link.stiffness = static_cast<float>(stiffness);
-  load.force = force;
+  link.stiffness = static_cast<float>(to_law.stiffness);
 }
 
 }  // namespace
@@ -74,10 +78,10 @@ bool activate_closing(Workspace& w) {
   std::vector<std::uint8_t> change(links.size(), 0);
   std::atomic<bool> wrong = false;
   for_each_index(links.size(), worth_threads(w.system.n_row), [&](std::size_t l) {
-    const solve::LinkLoad& load = links.load[l];
-    if (!(load.closed_stiffness > 0) || load.clearance <= 0) return;
-    if (load.clearance + kShallowDepth > reach && !links.is_closed(l)) return;
-    const double end = clearance_at(gap_after(w, links.link[l]), links.link[l], load);
+    const solve::LinkLaw& law = links.law[l];
+    if (!(law.closed_stiffness > 0) || law.clearance <= 0) return;
+    if (law.clearance + kShallowDepth > reach && !links.is_closed(l)) return;
+    const double end = clearance_at(gap_after(w, links.link[l]), links.link[l], law);
     if (links.is_closed(l)) {
       change[l] = end > 0 ? 2 : 0;
       if (end > kMostGap) wrong = true;
@@ -90,15 +94,15 @@ bool activate_closing(Workspace& w) {
   links.closed.resize(links.size(), 0);
   for (std::size_t l = 0; l < links.size(); ++l) {
     if (change[l] == 0) continue;
-    solve::LinkLoad& load = links.load[l];
+    const solve::LinkLaw& law = links.law[l];
+    const contact::Contact& contact = w.contacts.all[law.contact];
+    const ActiveLaw own{contact.force, contact.slope},
+        closed{-law.closed_stiffness * law.clearance, law.closed_stiffness};
     links.closed[l] = change[l] == 1 ? 1 : 0;
-    if (links.closed[l] != 0) {
-      replace_law(load.closed_stiffness, -load.closed_stiffness * load.clearance, links.link[l],
-                  load, w.system);
-    } else {  // its own law again
-      const contact::Contact& own = w.contacts.all[load.contact];
-      replace_law(own.slope, own.force, links.link[l], load, w.system);
-    }
+    if (links.closed[l] != 0)
+      replace_law(own, closed, contact.normal, links.link[l], w.system);
+    else
+      replace_law(closed, own, contact.normal, links.link[l], w.system);
   }
   w.op.prepare(w.system);
   return true;
@@ -109,7 +113,7 @@ bool pulls_open(const Workspace& w) {
   bool open = false;
   for (std::size_t l = 0; l < links.size() && !open; ++l)
     open = links.is_closed(l) &&
-           clearance_at(gap_after(w, links.link[l]), links.link[l], links.load[l]) > kMostGap;
+           clearance_at(gap_after(w, links.link[l]), links.link[l], links.law[l]) > kMostGap;
   return w.system.ownership.ranks.any(open);
 }
 

@@ -14,8 +14,8 @@ namespace acinus::coupling {
 double gap_after(const Workspace& work, const solve::Link& link);
 
 /// Clearance of a contact from its repulsive branch at a gap of `end`, um; negative: depth.
-inline double clearance_at(double end, const solve::Link& link, const solve::LinkLoad& load) {
-  return end + load.clearance - static_cast<double>(link.gap);
+inline double clearance_at(double end, const solve::Link& link, const solve::LinkLaw& law) {
+  return end + law.clearance - static_cast<double>(link.gap);
 }
 
 /// Largest depth of a contact that closes within a step with step-size control, um.

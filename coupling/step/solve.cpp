@@ -24,12 +24,13 @@ Status solve_from_guess(const World& world, Workspace& w, bool from_point, Effor
   if (!point.is_elsewhere()) return solve_system(world, w, effort);
   // A (d - point) = F - Gamma/h point, solved for d: the tolerance refers to the whole
   // displacement. That of constrained cells is known: their penalty forces would exceed all others.
-  set_size(w.rest_of_move, w.move.size());
-  for_each_own_number(w.system, [&](std::size_t k) { w.rest_of_move[k] = point.move[k]; });
-  std::swap(w.rest_of_move, w.move);
+  std::vector<double>& to_point = w.rigid.mode;
+  set_size(to_point, w.move.size());
+  for_each_own_number(w.system, [&](std::size_t k) { to_point[k] = point.move[k]; });
+  std::swap(to_point, w.move);
   place_constrained({}, w);
   w.op.apply(w.move, point.product);
-  std::swap(w.rest_of_move, w.move);
+  std::swap(to_point, w.move);
   place_constrained({}, w);
   for_each_own_number(w.system,
                       [&](std::size_t k) { w.rhs[k] += point.product[k] - point.friction[k]; });
@@ -81,8 +82,9 @@ Status solve_system(const World& world, Workspace& w, Effort& effort,
   ++effort.solves;
   if (!result.status.ok) return result.status;
   // A rigid error this small relative to a mesh edge is below the tolerance of the solver.
-  const solve::RigidResult rigid = solve::correct_rigid_modes(
-      w.op, w.cg.residual, w.move, {w.position, w.active}, options.tolerance, w.rigid);
+  const solve::RigidResult rigid =
+      solve::correct_rigid_modes(w.op, {w.cg.residual, w.cg.product}, w.move,
+                                 {w.position, w.active}, options.tolerance, w.rigid);
   if (rigid.corrected_groups > 0) {
     w.op.apply(w.move, w.cg.product);
     for_each_own_number(w.system,

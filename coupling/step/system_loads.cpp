@@ -62,7 +62,10 @@ void add_loads(const World& world, const State& at, double step, const SystemTer
   if (!at.tree.node.empty())
     add_tree_loads(world.params.tree, at.tree, w.system.block[w.tree_block], w.system);
   add_constraint(step, w);
-  w.op.add_link_forces(w.system);
+  w.op.add_link_forces(w.system, [&](std::size_t link) -> Vec3 {
+    const contact::Contact& k = w.contacts.all[w.system.links.law[link].contact];
+    return k.force * k.normal;
+  });
   w.op.prepare(w.system);
 }
 

@@ -51,4 +51,11 @@ void size_workspace(const World& world, Workspace& w) {
     w.dcm.fixed.push_back(world.params.boundary.vessels.wall->surface.body);
 }
 
+void release_scratch(Workspace& w) {
+  w.op.release();
+  w.cg = {};
+  w.rigid.mode = std::vector<double>();  // assigning {} would keep the memory
+  w.linearisation = {};
+}
+
 }  // namespace acinus::coupling

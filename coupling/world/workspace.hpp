@@ -68,7 +68,6 @@ struct Workspace {
   Constraint constraint;                 ///< set by the owner
   std::vector<double> rhs;               ///< written by: solve_step
   std::vector<double> move;              ///< displacement of the step; written by: solve_step
-  std::vector<double> rest_of_move;      ///< scratch of solve_step
   LinearisationPoint linearisation;      ///< written by: choose_linearisation_point
   int failed_solves = 0;                 ///< of this step; written by: take_step, assess_step
   std::vector<std::uint8_t> leader;      ///< written by: refresh_migration

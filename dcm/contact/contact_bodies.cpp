@@ -9,7 +9,7 @@ namespace {
 
 void complete_body(const State& state, std::size_t k, ContactWorkspace& work) {
   copy_nodes(state, work.lane_of_body[k], work.body[k].node);
-  contact::refresh_body(work.body[k]);
+  contact::refresh_nodes(work.body[k]);
   work.is_complete[k] = 1;
 }
 

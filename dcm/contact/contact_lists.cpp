@@ -139,7 +139,8 @@ void renew_pairs(const ListInput& in, ContactLists& lists) {
 void compute_motion(const contact::SurfaceBody& now, ListSnapshot& s) {
   const std::size_t n = s.node.size();
   const auto moved = [&](std::size_t i) -> Vec3 {
-    return (now.node[i] - s.origin) - s.node[i].cast<double>();
+    const auto& [x, y, z] = s.node[i];
+    return (now.node[i] - s.origin) - s.unit * Vec3(x, y, z);
   };
   s.mean = Vec3::Zero();
   for (std::size_t i = 0; i < n; ++i) s.mean += moved(i);
@@ -147,7 +148,9 @@ void compute_motion(const contact::SurfaceBody& now, ListSnapshot& s) {
   double spread2 = 0;
   for (std::size_t i = 0; i < n; ++i)
     spread2 = std::max(spread2, (moved(i) - s.mean).squaredNorm());
-  s.spread = std::sqrt(spread2);
+  // Every place is wrong by up to half a diagonal of its unit, and so is the mean of all: thrice
+  // that in the deviation and the mean.
+  s.spread = std::sqrt(spread2) + 1.5 * std::sqrt(3.0) * s.unit;
 }
 
 /// True if the network moved farther than the lists of segments allow. The present network then
@@ -175,9 +178,18 @@ int allocate_snapshot(ListedBody& body) {
 
 void take_snapshot(const contact::SurfaceBody& now, ListSnapshot& s) {
   s.origin = 0.5 * (now.box.low + now.box.high);
-  s.node.clear();
-  s.node.reserve(now.node.size());
-  for (const Vec3& x : now.node) s.node.emplace_back((x - s.origin).cast<float>());
+  constexpr double kSteps = 32767;
+  s.unit = 0.5 * (now.box.high - now.box.low).maxCoeff() / kSteps;
+  const double per_unit = s.unit > 0 ? 1 / s.unit : 0;
+  const auto steps = [&](double x) {  // to the nearest: conversion cuts off
+    return static_cast<std::int16_t>(static_cast<int>(x * per_unit + kSteps + 1.5) -
+                                     static_cast<int>(kSteps + 1));
+  };
+  s.node.resize(now.node.size());
+  for (std::size_t i = 0; i < s.node.size(); ++i) {
+    const Vec3 x = now.node[i] - s.origin;
+    s.node[i] = {steps(x[0]), steps(x[1]), steps(x[2])};
+  }
   s.mean = Vec3::Zero();
   s.spread = 0;
 }
@@ -199,7 +211,9 @@ void find_segments(const contact::SurfaceBody& b, const contact::SearchOptions& 
   }
   if (near.empty()) return;
   // A node includes the segments in the middle of its faces; an edge need not as well.
-  const double widest = *std::ranges::max_element(b.reach);
+  double widest = 0;
+  for (std::size_t t = 0; t < b.triangle->size(); ++t)
+    widest = std::max(widest, contact::triangle_reach(b, t));
   for (std::size_t site = 0; site < contact::n_sites(b, o.quadrature); ++site) {
     const bool node = !contact::has_face_sites(o.quadrature) && site < b.node.size();
     const Vec3 at = contact::site_place(b, o.quadrature, site);

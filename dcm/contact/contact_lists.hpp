@@ -5,6 +5,7 @@
 /// it alone is rebuilt. A cell that divides or moves fast costs only its neighbours new lists. The
 /// contacts found do not depend on the age of a list.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,11 +24,13 @@ struct SegmentCandidates {
 
 /// Nodes of a body when lists with it were made, and their motion since then.
 struct ListSnapshot {
-  std::vector<Eigen::Vector3f> node;  ///< um from the origin; lists allow for the rounding
-  Vec3 origin = Vec3::Zero();         ///< um
-  Vec3 mean = Vec3::Zero();           ///< um, mean motion since then
-  double spread = 0;                  ///< um, largest deviation of a node's motion from the mean
-  int lists = 0;                      ///< number of lists made then; 0: free slot
+  std::vector<std::array<std::int16_t, 3>> node;  ///< from the origin, in units of `unit`
+  Vec3 origin = Vec3::Zero();                     ///< um
+  double unit = 0;                                ///< um
+  Vec3 mean = Vec3::Zero();                       ///< um, mean motion since then
+  /// um, bound of the deviation of a node's motion from the mean; allows for the rounding of nodes
+  double spread = 0;
+  int lists = 0;  ///< number of lists made then; 0: free slot
 };
 
 /// Body as the lists keep it. Cells are identified by lineage when their numbers change.

@@ -66,13 +66,13 @@ struct Completion {
       const double pushing =
           k.guard ? guard_area(*body(k.a).topology, k.point, in.lanes.radius[lane_of(k.a)])
                   : area(k.a, k.point);
-      return {pushing, repulsion(k.stiffness), 0, k.gap + k.onset};
+      return {pushing, repulsion(k.stiffness()), 0, k.gap + k.onset()};
     }
     const double whole = area(k.a, k.point);
     const double share = touching_share(in.options, work, k.a, k.point, k.gap);
     k.touching = whole * share;
     const contact::Material& m = contact::material_of(in.boundary, k.partner, k.b);
-    const double stiffness = k.partner == Partner::kMesh ? in.options.repulsion : k.stiffness;
+    const double stiffness = k.partner == Partner::kMesh ? in.options.repulsion : k.stiffness();
     return {whole, cohesive(k.a, m.adhesion, stiffness),
             m.mirror ? 0 : share * params_of(k.a).vessel_friction, k.gap};
   }
@@ -88,9 +88,9 @@ struct Completion {
                : params_of(k.a).vessel_friction;
   }
 
-  void complete(Contact& k, solve::Link& link, solve::LinkLoad& load) const {
+  void complete(Contact& k, solve::Link& link, solve::LinkLaw& closed) const {
     if (is_triangle_contact(in.options, k)) {
-      complete_triangle_contact(in, work, triangle_friction(k), k, link, load);
+      complete_triangle_contact(in, work, triangle_friction(k), k, link, closed);
       link.b = side_b(in, work, k);
       return;
     }
@@ -103,7 +103,7 @@ struct Completion {
     link.b = side_b(in, work, k);
     const double gap = k.is_fold() ? law.clearance : k.gap;
     solve::set_law(k.slope, friction, gap, k.normal, link);
-    load = {k.normal, k.force, law.area * law.cohesive.repulsion, law.clearance};
+    closed = {law.area * law.cohesive.repulsion, law.clearance};
   }
 };
 
@@ -120,9 +120,9 @@ void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
   links.resize(first + n);
   for_each_index(n, worth_threads(in.state.n_row()), [&](std::size_t k) {
     Contact& c = contacts.all[k];
-    solve::LinkLoad& load = links.load[first + k];
-    completion.complete(c, links.link[first + k], load);
-    load.contact = static_cast<std::uint32_t>(k);
+    solve::LinkLaw& law = links.law[first + k];
+    completion.complete(c, links.link[first + k], law);
+    law.contact = static_cast<std::uint32_t>(k);
   });
 }
 

@@ -57,8 +57,10 @@ class PointSearch {
  private:
   /// Lists the triangles that may be nearest to a point of the face, the likeliest first.
   void list_candidates(int face) {
-    const Vec3& center = cortex_.center[face];
-    const double around = 0.5 * cortex_.reach[face];  // its points are half as far as its corners
+    const std::size_t triangle = face;
+    const Vec3 center = contact::triangle_center(cortex_, triangle);
+    // Its points are half as far as its corners.
+    const double around = 0.5 * contact::triangle_reach(cortex_, triangle);
     const std::size_t n = nucleus_.triangle->size(), begin = triangle_.size();
     squared_.resize(n);
     for (std::size_t t = 0; t < n; ++t) squared_[t] = (center - nucleus_.center[t]).squaredNorm();
@@ -119,7 +121,8 @@ void find_near(const contact::SurfaceBody& b, const Vec3& point, double distance
                std::vector<int>& near) {
   near.clear();
   for (std::size_t t = 0; t < b.triangle->size(); ++t)
-    if ((b.center[t] - point).norm() - b.reach[t] < distance) near.push_back(static_cast<int>(t));
+    if ((contact::triangle_center(b, t) - point).norm() - contact::triangle_reach(b, t) < distance)
+      near.push_back(static_cast<int>(t));
 }
 
 /// Search for the contacts of nucleus `number` of `work`.
@@ -145,7 +148,7 @@ void find_in_cell(const ContactInput& in, const ContactWorkspace& cortices, std:
                                       .triangle = triangle,
                                       .partner = contact::Partner::kNucleus,
                                       .place = weight,
-                                      .stiffness = n.repulsion,
+                                      .place_a = contact::Contact::pack(n.repulsion),
                                       .normal = normal,
                                       .gap = gap - n.gap});
       });
@@ -193,7 +196,7 @@ void add_nucleus_contacts(const ContactInput& in, const ContactWorkspace& cortic
     const Group& g = in.state.group[lane / kLanes];
     const int first = g.topology->n_node;
     const auto& corner = g.nucleus.topology->triangle[c.triangle];
-    const double closed_stiffness = c.stiffness * nucleus_contact_area(in, cortices, c);
+    const double closed_stiffness = c.stiffness() * nucleus_contact_area(in, cortices, c);
     c.slope = c.gap < 0 ? closed_stiffness : 0;
     c.force = -c.slope * c.gap;
     solve::Link& link = links.link[at];
@@ -201,8 +204,7 @@ void add_nucleus_contacts(const ContactInput& in, const ContactWorkspace& cortic
     link.b = side_at(in.state, lane,
                      {3, {first + corner[0], first + corner[1], first + corner[2]}, c.weights()});
     solve::set_law(c.slope, 0, c.gap, c.normal, link);
-    links.load[at] = {c.normal, c.force, closed_stiffness, c.gap,
-                      static_cast<std::uint32_t>(number)};
+    links.law[at] = {closed_stiffness, c.gap, static_cast<std::uint32_t>(number)};
     ++at;
     ++number;
   }
@@ -216,7 +218,7 @@ double nucleus_contact_area(const ContactInput& in, const ContactWorkspace& cort
 
 double nucleus_contact_energy(const contact::Contact& c, double area) {
   const double depth = std::min(c.gap, 0.0);
-  return 0.5 * c.stiffness * area * depth * depth;
+  return 0.5 * c.stiffness() * area * depth * depth;
 }
 
 }  // namespace acinus::dcm

@@ -49,16 +49,16 @@ void set_wall_stiffness(const ContactParams& c, const contact::Material& wall,
     const double limit = std::min(contact::yield_limit(wall, found[k].radius), c.max_depth / 2);
     const double k_bed = wall_stiffness(c.repulsion, wall, found[k].radius, depth_at(o.b));
     if (o.guard) {
-      o.stiffness = c.repulsion;
-      o.onset = kGuardGap + (1 - k_bed / c.repulsion) * limit;
+      o.place_a = Contact::pack(c.repulsion);
+      o.place = Contact::pack(kGuardGap + (1 - k_bed / c.repulsion) * limit);
       continue;
     }
-    o.stiffness = k_bed;
+    o.place_a = Contact::pack(k_bed);
     // Listed before it pushes, as a step may bring the point there.
     if (limit == 0 || -o.gap < limit / 2) continue;
     VesselContact stop = found[k];
-    stop.contact.stiffness = c.repulsion - o.stiffness;
-    stop.contact.onset = limit;
+    stop.contact.place_a = Contact::pack(c.repulsion - k_bed);
+    stop.contact.place = Contact::pack(limit);
     found.push_back(stop);
   }
 }
@@ -106,8 +106,7 @@ class VesselSearch {
 
  private:
   VesselContact nearest(std::size_t site, int point, const Vec3& x) const {
-    VesselContact best{
-        {.a = number_, .point = point, .b = -1, .partner = Partner::kVessel, .stiffness = 0}, 0};
+    VesselContact best{{.a = number_, .point = point, .b = -1, .partner = Partner::kVessel}, 0};
     best.contact.gap = range_;
     for (std::uint32_t e = list_.start[site]; e < list_.start[site + 1]; ++e) {
       const contact::Gap g = contact::gap_to_segment(vessels_.network, list_.segment[e], x);
@@ -142,7 +141,8 @@ class VesselSearch {
   /// Updates a guard. A node belongs to several faces; its deepest contact counts, once.
   void update_guard(std::size_t site, int number) {
     const std::size_t i = number;
-    const Vec3& x = i < b_.node.size() ? b_.node[i] : b_.center[i - b_.node.size()];
+    const Vec3 x =
+        i < b_.node.size() ? b_.node[i] : contact::triangle_center(b_, i - b_.node.size());
     const VesselContact best = nearest(site, number, x);
     VesselContact& guard = scratch_.guard[i];
     if (best.contact.b < 0 || best.contact.gap >= std::min(guard.contact.gap, -kGuardGap)) return;
@@ -203,7 +203,7 @@ void find_obstacle_contacts(const ContactInput& in, const ContactWorkspace& work
                        .point = p,
                        .b = index,
                        .partner = kind,
-                       .stiffness = c.repulsion,
+                       .place_a = Contact::pack(c.repulsion),
                        .normal = g.normal,
                        .gap = g.gap});
     }

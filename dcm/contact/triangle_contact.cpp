@@ -117,15 +117,16 @@ struct BodyPair {
     for (std::size_t n = 0; n < list.point.size(); ++n) {
       const CurvedTriangle& at_a = a[list.point[n]];
       for (std::uint32_t e = list.start[n]; e < list.start[n + 1]; ++e) {
-        const CurvedTriangle& at_b = b[list.triangle[e]];
+        const int t = list.near.triangle_at(e);
+        const CurvedTriangle& at_b = b[t];
         const double near = at_a.circumradius + at_b.circumradius + reach;
         if ((at_a.circumcenter - at_b.circumcenter).squaredNorm() > near * near) continue;
         const contact::TriangleContact k =
-            contact::compute_triangle_contact(law_at(list.triangle[e]), at_a, at_b, side);
+            contact::compute_triangle_contact(law_at(t), at_a, at_b, side);
         for (const contact::TrianglePart* part : {&k.push, &k.pull})
           if (part->area > 0)
             for (const std::array<double, 3>& place : spread(at_a, *part))
-              out.push_back(record(list.point[n], list.triangle[e], k.normal, *part, place));
+              out.push_back(record(list.point[n], t, k.normal, *part, place));
       }
     }
   }
@@ -326,11 +327,11 @@ void add_triangle_shares(std::span<const Contact> contacts, ContactWorkspace& wo
 
 void complete_triangle_contact(const ContactInput& in, const ContactWorkspace& work,
                                double friction, Contact& k, solve::Link& link,
-                               solve::LinkLoad& load) {
+                               solve::LinkLaw& law) {
   k.friction = static_cast<float>(friction * k.touching);
   link.a = side_a(in, work, k);
   solve::set_law(k.slope, friction * k.touching, k.gap, k.normal, link);
-  load = {k.normal, k.force, 0, 0};
+  law = {};
 }
 
 void add_place_remainders(const ContactInput& in, const ContactWorkspace& work,

@@ -66,7 +66,7 @@ void add_triangle_shares(std::span<const contact::Contact> contacts, ContactWork
 /// @param friction  nN s/um^3
 void complete_triangle_contact(const ContactInput& in, const ContactWorkspace& work,
                                double friction, contact::Contact& contact, solve::Link& link,
-                               solve::LinkLoad& load);
+                               solve::LinkLaw& law);
 
 /// Add the force remainders that links lack because their places are rounded: 1e-7 of each force,
 /// moved between the corners on side b to the place along the normal from side a. The moment of a

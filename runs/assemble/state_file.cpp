@@ -56,8 +56,8 @@ void get_birth_shapes(const io::CheckpointData& d, dcm::State& s) {
     b.weight = {from[0], from[1], from[2], from[3]};
     b.area = from[4];
     const auto edge = from + 5, triangle = edge + static_cast<std::ptrdiff_t>(n_edge);
-    b.edge.assign(edge, triangle);
-    b.triangle.assign(triangle, triangle + static_cast<std::ptrdiff_t>(n_triangle));
+    b.edge = std::vector<double>(edge, triangle);
+    b.triangle = std::vector<double>(triangle, triangle + static_cast<std::ptrdiff_t>(n_triangle));
     at += 5 + n_edge + n_triangle;
   }
 }
@@ -129,7 +129,7 @@ void get_birth_links(const io::CheckpointData& d, dcm::State& s) {
     const auto n = static_cast<std::ptrdiff_t>(s.group[l / kLanes].nucleus.n_node());
     if (n == 0 || s.birth[l].edge.empty()) continue;
     check_same(d, "dcm/birth_link", numbers.end() - at >= n ? 1 : 0, 1);
-    s.birth[l].link.assign(at, at + n);
+    s.birth[l].link = std::vector<double>(at, at + n);
     at += n;
   }
 }

@@ -33,6 +33,11 @@ io::Table cell_table(const std::vector<CellMeasure>& cells) {
       stress{"stress", "kPa", 6, {}}, touching{"contact_area", "um^2", 1, {}},
       active{"migration_force", "nN", 1, {}}, pushing{"contact_force", "nN", 1, {}},
       normal{"normal_force", "nN", 1, {}};
+  for (io::IdColumn* c : {&id, &parent, &kind, &type, &leader, &contacts})
+    c->value.reserve(cells.size());
+  for (io::Column* c : {&center, &radius, &volume, &area, &pressure, &cytosol, &stress, &touching,
+                        &active, &pushing, &normal})
+    c->value.reserve(cells.size() * static_cast<std::size_t>(c->components));
   for (const CellMeasure& c : cells) {
     id.value.push_back(c.id);
     parent.value.push_back(c.parent);
@@ -52,9 +57,11 @@ io::Table cell_table(const std::vector<CellMeasure>& cells) {
     pushing.value.push_back(c.contact_force);
     normal.value.push_back(c.normal_force);
   }
-  t.ids = {id, parent, kind, type, leader, contacts};
-  t.columns = {center, radius,   volume, area,    pressure, cytosol,
-               stress, touching, active, pushing, normal};
+  for (io::IdColumn* c : {&id, &parent, &kind, &type, &leader, &contacts})
+    t.ids.push_back(std::move(*c));
+  for (io::Column* c : {&center, &radius, &volume, &area, &pressure, &cytosol, &stress, &touching,
+                        &active, &pushing, &normal})
+    t.columns.push_back(std::move(*c));
   return t;
 }
 
@@ -74,8 +81,21 @@ io::Table interface_table(const std::vector<coupling::InterfaceForce>& forces) {
 /// Builder of a frame: appends points, triangles, spheres and their data.
 class FrameBuilder {
  public:
-  explicit FrameBuilder(const Snapshot& snapshot) : snapshot_(snapshot) {
+  /// @param n_point     nodes of surfaces, and centres of spheres
+  /// @param n_triangle  of surfaces
+  FrameBuilder(const Snapshot& snapshot, std::size_t n_point, std::size_t n_triangle,
+               std::size_t n_sphere)
+      : snapshot_(snapshot) {
     frame_.time_s = snapshot.time;
+    const std::size_t n_cell = n_triangle + n_sphere;
+    frame_.point.reserve(3 * n_point);
+    for (io::Field* f : {&force_, &contact_, &tension_})
+      f->value.reserve(n_point * static_cast<std::size_t>(f->components));
+    frame_.triangle.reserve(n_triangle);
+    frame_.cell_id.reserve(n_cell);
+    frame_.kind.reserve(n_cell);
+    for (io::Field* f : {&type_, &volume_, &pressure_, &cytosol_, &radius_, &leader_, &strength_})
+      f->value.reserve(n_cell);
   }
 
   void add_cell(const contact::SurfaceBody& body, const CellMeasure& cell) {
@@ -108,10 +128,9 @@ class FrameBuilder {
 
   io::Frame finish() {
     frame_.n_mesh_node = base_;
-    frame_.point_data = {std::move(force_), std::move(contact_), std::move(tension_)};
-    frame_.cell_data = {std::move(type_),    std::move(volume_), std::move(pressure_),
-                        std::move(cytosol_), std::move(radius_), std::move(leader_),
-                        std::move(strength_)};
+    for (io::Field* f : {&force_, &contact_, &tension_}) frame_.point_data.push_back(std::move(*f));
+    for (io::Field* f : {&type_, &volume_, &pressure_, &cytosol_, &radius_, &leader_, &strength_})
+      frame_.cell_data.push_back(std::move(*f));
     frame_.cells = cell_table(snapshot_.cells);
     frame_.interface = interface_table(snapshot_.interface);
     return std::move(frame_);
@@ -201,8 +220,20 @@ void add_concentrations(const coupling::World& world, const Snapshot& snapshot, 
 
 io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
                      const Snapshot& snapshot, const geometry::Surface& boundary) {
-  FrameBuilder builder(snapshot);
-  const std::size_t n_body = w.dcm.body.size();
+  const std::size_t n_body = w.dcm.body.size(), n_sphere = snapshot.cells.size() - n_body;
+  std::size_t n_point = boundary.node.size() + n_sphere, n_triangle = boundary.triangle.size();
+  const auto count = [&](std::size_t node, std::size_t triangle) {
+    n_point += node;
+    n_triangle += triangle;
+  };
+  for (std::size_t b = 0; b < n_body; ++b) {
+    count(w.dcm.body[b].node.size(), w.dcm.body[b].triangle->size());
+    const dcm::NucleusMesh& nucleus = world.state.dcm.group[w.dcm.lane_of_body[b] / kLanes].nucleus;
+    if (nucleus.exists()) count(nucleus.topology->rest.size(), nucleus.topology->triangle.size());
+  }
+  for (const contact::StaticMesh& m : world.params.boundary.meshes)
+    count(m.body.node.size(), m.triangle->size());
+  FrameBuilder builder(snapshot, n_point, n_triangle, n_sphere);
   for (std::size_t b = 0; b < n_body; ++b) builder.add_cell(w.dcm.body[b], snapshot.cells[b]);
   if (dcm::has_nuclei(world.state.dcm)) add_nuclei(world.state.dcm, w, snapshot, builder);
   builder.add_surface(boundary.node, boundary.triangle);

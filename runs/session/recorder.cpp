@@ -9,6 +9,8 @@
 #include "acinus_version.hpp"
 #include "core/error.hpp"
 #include "core/parallel/clock.hpp"
+#include "coupling/measure/pair_contacts.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "dcm/contact/contact_bodies.hpp"
 #include "runs/assemble/build_substances.hpp"
 #include "runs/assemble/state_file.hpp"
@@ -103,6 +105,7 @@ Excess Recorder::write_frame(bool last) {
   coupling::Workspace& work = simulation_.work();
   const auto scope = work.timings.scope("frames and audit");
   const Snapshot snapshot = take_snapshot(world, work);
+  coupling::release_scratch(work);
   dcm::copy_all_nodes(world.state.dcm, work.dcm);
   if (!static_bodies_) static_bodies_ = prepare_static_bodies(world.params.boundary);
   const coupling::AuditResult audit = audit_world(world, work, snapshot, *static_bodies_);
@@ -122,6 +125,7 @@ Excess Recorder::write_frame(bool last) {
               fmt::format("{} self-intersecting cells", audit.n_self_intersecting));
   Excess excess = find_excess(audit, world, work);
   if (excess.depth_um > 0) add_event("deep_overlap", excess.cause, excess.cells);
+  coupling::drop_sphere_pairs(work);
   const bool shrinks = excess.depth_um < excess_.depth_um && !last;
   excess_ = excess;
   return shrinks ? Excess{} : excess;

@@ -71,6 +71,21 @@ TEST(Audit, OverlappingBricksHaveTheirExactDepth) {
   EXPECT_EQ(r.n_self_intersecting, 0);
 }
 
+// More queries than are answered at a time: bodies are dropped, and needed again only in part.
+TEST(Audit, ARowOfManyBricksHasTheDepthOfEveryPair) {
+  constexpr int kBricks = 599;  // a prime: 7 k mod n meets every place
+  std::vector<Surface> bodies;
+  for (int k = 0; k < kBricks; ++k) {  // numbered across the row
+    const double at = 9.75 * (7 * k % kBricks), deeper = k % 2 == 0 ? 1e-4 * k : 0;
+    bodies.push_back(brick({at - deeper, 0, 0}, {at + 10, 10, 10}));
+  }
+  const auto r = audit_bodies(bodies);  // 598 is deepest; at the place before it is 170
+  EXPECT_NEAR(r.dcm_dcm.depth_um, 0.25 + 1e-4 * 598, 1e-9);
+  EXPECT_EQ(r.dcm_dcm.ids, (Ids{100 + 170, 100 + 598}));
+  EXPECT_EQ(r.n_self_intersecting, 0);
+  EXPECT_EQ(r.n_inverted, 0);
+}
+
 TEST(Audit, OverlappingCellsHaveTheDepthOfTheirGeometry) {
   for (const double distance : {23.9, 23.5, 23.0, 20.0, 14.0}) {
     for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0.6, 0.8, 0), Vec3(0.36, 0.48, 0.8)}) {

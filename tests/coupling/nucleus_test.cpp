@@ -108,8 +108,8 @@ TEST(NucleusInACell, IsNoContactOfTheCell) {
   dcm::store_nucleus(node, 0, w.state.dcm);
   SizedWorkspace work(w);
   observe(w, work);
-  EXPECT_TRUE(std::ranges::any_of(work.system.links.load, [&](const auto& load) {
-    return work.contacts.kind_of(load.contact) == contact::ContactKind::kNucleus;
+  EXPECT_TRUE(std::ranges::any_of(work.system.links.law, [&](const auto& law) {
+    return work.contacts.kind_of(law.contact) == contact::ContactKind::kNucleus;
   }));
   const std::vector<CellMeasure> cells = measure_cells(w, work);
   const NodeMeasure nodes = measure_nodes(w, work);

@@ -57,8 +57,9 @@ State make_state(std::int64_t first_lineage = 0) {
       dcm::BirthShape& b = s.dcm.birth[c.at];
       const geometry::Topology& t = *s.dcm.group[c.at / kLanes].topology;
       b = {{1, 0, 0, 1.0 * static_cast<double>(id)}, 1.1, {}, {}, {}};
-      b.edge.assign(static_cast<std::size_t>(t.n_edge), 1 + 0.01 * static_cast<double>(id));
-      b.triangle.assign(static_cast<std::size_t>(t.n_triangle), 1.2);
+      b.edge = std::vector<double>(static_cast<std::size_t>(t.n_edge),
+                                   1 + 0.01 * static_cast<double>(id));
+      b.triangle = std::vector<double>(static_cast<std::size_t>(t.n_triangle), 1.2);
     }
   });
   s.clock.time = 7200;

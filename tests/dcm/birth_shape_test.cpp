@@ -57,8 +57,13 @@ Cells make_mixed_cells(int n_node, const Ramp& weight) {
     BirthShape& b = c.state.birth[lane];
     b.weight = weight;
     b.area = random.uniform(1.1, 1.4);
-    for (int e = 0; e < t.n_edge; ++e) b.edge.push_back(random.uniform(0.7, 1.4));
-    for (int f = 0; f < t.n_triangle; ++f) b.triangle.push_back(random.uniform(0.7, 1.4));
+    const auto ratios = [&](int n) {
+      std::vector<double> ratio;
+      for (int k = 0; k < n; ++k) ratio.push_back(random.uniform(0.7, 1.4));
+      return ratio;
+    };
+    b.edge = ratios(t.n_edge);
+    b.triangle = ratios(t.n_triangle);
   }
   c.reset();
   return c;

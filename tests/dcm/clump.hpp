@@ -51,7 +51,10 @@ struct Clump {
     find();
   }
   /// Force of a contact on its side a, nN.
-  Vec3 force(std::size_t link) const { return links.load[link].force * links.load[link].normal; }
+  Vec3 force(std::size_t link) const {
+    const contact::Contact& k = contacts.all[links.law[link].contact];
+    return k.force * k.normal;
+  }
   reference::NetForce net_force(std::span<const double> node_force) const {
     reference::NetForce net;
     for_each_node([&](Address a) {

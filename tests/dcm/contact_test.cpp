@@ -97,7 +97,7 @@ TEST(ContactLoads, ForceIsMinusEnergyGradient) {
     c.find();
     const auto less = gaps_of(c);
     double scale = 0;
-    for (const solve::LinkLoad& f : links.load) scale = std::max(scale, std::abs(f.force));
+    for (const contact::Contact& f : contacts) scale = std::max(scale, std::abs(f.force));
     for (std::size_t l = 0; l < links.size(); ++l) {
       // match by feature: a contact may have appeared or gone
       const auto find = [&](const std::vector<std::array<int, 4>>& in) {
@@ -108,8 +108,8 @@ TEST(ContactLoads, ForceIsMinusEnergyGradient) {
       const solve::Stencil stencil = solve::stencil_of(links.link[l]);
       double work = 0;
       for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
-        work += stencil.weight[k] * links.load[l].force *
-                links.load[l].normal.dot(load_point(direction.data(), stencil.address[k]));
+        work += stencil.weight[k] * contacts[l].force *
+                contacts[l].normal.dot(load_point(direction.data(), stencil.address[k]));
       const double slope =
           (contact_energy(c, down, more[up]) - contact_energy(c, down, less[down])) / (2 * h);
       EXPECT_EQ(links.link[l].gap, static_cast<float>(gap[l]));
@@ -125,7 +125,7 @@ TEST(ContactLoads, ForceIsMinusEnergyGradient) {
       // weights are both rounded, moves by that.
       const bool off_edge = kind >= 3 && std::abs(contacts[l].weights()[2]) < 1e-7;
       const double turn = rounding / (off_edge ? h : std::abs(gap[l]));
-      const double bound = 1e-6 * scale + turn * std::abs(links.load[l].force);
+      const double bound = 1e-6 * scale + turn * std::abs(contacts[l].force);
       worst[kind] = std::max(worst[kind], std::abs(work + slope) / scale);
       EXPECT_LT(std::abs(work + slope), bound) << kind << " gap " << gap[l];
     }
@@ -159,7 +159,7 @@ TEST(ContactLoads, StiffnessIsTheProjectedSecondDerivative) {
       EXPECT_NEAR(along, std::max(0.0, curvature), 1e-3 * (along + 0.1)) << gap[l];
     }
     // The load is along the exact normal; the matrix keeps it in floats, 6e-8 a component.
-    const Vec3& exact = c.links.load[l].normal;
+    const Vec3& exact = c.contacts.all[l].normal;
     EXPECT_NEAR(exact.norm(), 1, 1e-14);
     EXPECT_LT((reference::normal_of(link.normal) - exact).cwiseAbs().maxCoeff(), 1e-7);
   }
@@ -181,7 +181,7 @@ TEST(ContactLoads, SidesNameThePlacesOfTheContact) {
       for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
         r += stencil.weight[k] * load_point(c.state.position.data(), stencil.address[k]);
       if (c.links.link[l].b.exists()) {
-        worst = std::max(worst, (r - gap[l] * c.links.load[l].normal).norm());
+        worst = std::max(worst, (r - gap[l] * c.contacts.all[l].normal).norm());
         ++pairs;
         continue;
       }

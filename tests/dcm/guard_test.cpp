@@ -19,7 +19,7 @@ TEST(ObstacleContacts, AVesselTipInTheMiddleOfAFaceIsPushedOut) {
                   Mat3::Identity()}});
     c.options.quadrature = q;
     refresh_bodies(c.state, c.work);
-    const Vec3 middle = c.work.body[0].center[7], out = middle.normalized();
+    const Vec3 middle = contact::triangle_center(c.work.body[0], 7), out = middle.normalized();
     const double radius = 0.8, depth = 0.5;
     geometry::Network n;
     n.node = {middle + (radius - depth) * out, middle + 40 * out};

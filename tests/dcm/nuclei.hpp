@@ -73,7 +73,10 @@ struct NucleatedCells {
     find_contacts();
     add_nucleus_contacts(input(), cortices, contacts, system.links);
     solve::Operator op;
-    op.add_link_forces(system);
+    op.add_link_forces(system, [&](std::size_t link) -> Vec3 {
+      const contact::Contact& k = contacts.all[system.links.law[link].contact];
+      return k.force * k.normal;
+    });
   }
   double contact_energy() {
     find_contacts();

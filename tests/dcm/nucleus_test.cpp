@@ -190,7 +190,7 @@ TEST(Nucleus, ContactPushesWithItsDepth) {
     ++n;
     EXPECT_NEAR(k.gap, -0.2, 1e-6) << "the place is a float";
     EXPECT_LT((k.normal - normal).norm(), 1e-5);
-    force += -k.stiffness * nucleus_contact_area(c.input(), c.cortices, k) * k.gap;
+    force += -k.stiffness() * nucleus_contact_area(c.input(), c.cortices, k) * k.gap;
   }
   EXPECT_EQ(n, 3);
   EXPECT_NEAR(force, 5 * cortex.rest_triangle_area[3] * 100 * 0.2, 1e-4);

@@ -33,6 +33,13 @@ TEST(StateFile, KeepsTheStrengthOfNewBornSpheres) {
   EXPECT_EQ(loaded.cbm.strength[1].at(100 + 2160), 0.25);
 }
 
+/// Equal numbers but for one.
+std::vector<double> mixed(int n, double value, std::size_t at, double other) {
+  std::vector<double> numbers(static_cast<std::size_t>(n), value);
+  numbers[at] = other;
+  return numbers;
+}
+
 /// One cell of each model in the middle of life.
 coupling::State living() {
   coupling::State s =
@@ -49,16 +56,11 @@ coupling::State living() {
   s.divisions = 8;
   s.deaths = 9;
   const geometry::Topology& t = *s.dcm.group[0].topology;
-  s.dcm.birth[0] = {{1, 0, 60, 3660},
-                    1.2,
-                    std::vector<double>(static_cast<std::size_t>(t.n_edge), 1.1),
-                    std::vector<double>(static_cast<std::size_t>(t.n_triangle), 1.3),
-                    {}};
-  s.dcm.birth[0].edge[5] = 0.7;
+  s.dcm.birth[0] = {
+      {1, 0, 60, 3660}, 1.2, mixed(t.n_edge, 1.1, 5, 0.7), mixed(t.n_triangle, 1.3, 6, 0.8), {}};
   s.dcm.tension[1] = {std::vector<double>(s.dcm.group[0].topology->edge.size(), 0.2),
                       std::vector<double>(s.dcm.group[0].topology->edge.size(), 3.1)};
   s.dcm.tension[1].force[4] = -0.3;
-  s.dcm.birth[0].triangle[6] = 0.8;
   s.dcm.volume[0] = {7000, 14000, 10, 86010};
   return s;
 }
@@ -70,9 +72,9 @@ TEST(StateFile, KeepsNuclei) {
   coupling::State& saved = w.state;
   saved.dcm.birth[1] = living().dcm.birth[0];
   const geometry::Topology& t = *saved.dcm.group[0].topology;
-  saved.dcm.birth[1].edge.resize(static_cast<std::size_t>(t.n_edge), 1.2);
-  saved.dcm.birth[1].triangle.resize(static_cast<std::size_t>(t.n_triangle), 1.2);
-  saved.dcm.birth[1].link.assign(42, 1.4);
+  saved.dcm.birth[1].edge = mixed(t.n_edge, 1.2, 5, 0.7);
+  saved.dcm.birth[1].triangle = mixed(t.n_triangle, 1.2, 6, 0.8);
+  saved.dcm.birth[1].link = std::vector<double>(42, 1.4);
   io::CheckpointData data;
   put_state(saved, data);
   coupling::State s;

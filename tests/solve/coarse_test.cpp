@@ -49,7 +49,7 @@ struct Chain {
         const double friction = random.uniform(1, 3), stiffness = random.uniform(1, 3);
         set_law(stiffness, friction, 0, normal, link);
         system.links.link.push_back(link);
-        system.links.load.emplace_back();
+        system.links.law.emplace_back();
       }
     }
     op.prepare(system);

@@ -299,10 +299,10 @@ TEST(Operator, LinkForcesAreScatteredByWeight) {
     for (const auto& [at, weight] : stencil)
       for (Address c = 0; c < 3; ++c)
         (link.b.exists() ? expected_pair : expected_external)(at + c * kLanes) +=
-            weight * s.links.load[l].force * s.links.load[l].normal[c];
+            weight * force_of(link)[static_cast<int>(c)];
   }
   Operator op;
-  op.add_link_forces(s);
+  op.add_link_forces(s, [&](std::size_t l) { return force_of(s.links.link[l]); });
   EXPECT_LT((as_eigen(s.force) - expected_pair).cwiseAbs().maxCoeff(), 64 * kEps);
   EXPECT_LT((as_eigen(s.external_force) - expected_external).cwiseAbs().maxCoeff(), 64 * kEps);
   EXPECT_GT((as_eigen(s.external_force).array() - 0.25).abs().maxCoeff(), 0.01);
@@ -350,7 +350,7 @@ TEST(Operator, SameBitsForAnyNumberOfThreads) {
     now.external.resize(s.n_dof());
     op.apply_external(random_vector_of(s, 10), now.external);
     System loaded = s;
-    op.add_link_forces(loaded);
+    op.add_link_forces(loaded, [&](std::size_t l) { return force_of(s.links.link[l]); });
     now.force = loaded.force;
     now.external_force = loaded.external_force;
     seen.push_back(now);
@@ -426,7 +426,7 @@ TEST(System, ClearLoadsLeavesOnlyWhatIsWrittenAfresh) {
     for (double x : family.coefficient) ASSERT_EQ(x, 0);
   }
   EXPECT_EQ(s.links.size(), 0u);
-  EXPECT_TRUE(s.links.load.empty());
+  EXPECT_TRUE(s.links.law.empty());
   EXPECT_EQ(s.hinge, hinge);  // one term each, which writes and does not add
   EXPECT_EQ(s.face, face);
 }

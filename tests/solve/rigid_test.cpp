@@ -62,7 +62,7 @@ struct Clusters {
     set_law(stiffness, friction, 0, normal, link);
     if (a % 2 == 1) {
       system.links.link.push_back(link);
-      system.links.load.emplace_back();
+      system.links.law.emplace_back();
     } else {
       system.point_links.push_back({a, b, link.normal, link.stiffness, link.friction});
     }
@@ -92,7 +92,8 @@ struct Clusters {
     return r;
   }
   RigidResult correct(double threshold) {
-    return correct_rigid_modes(op, residual(), x, {position, active}, threshold, work);
+    std::vector<double> product(x.size());
+    return correct_rigid_modes(op, {residual(), product}, x, {position, active}, threshold, work);
   }
 };
 

@@ -139,7 +139,7 @@ inline System make_system(std::uint64_t seed, int copies = 1) {
     set_law(only_pulls ? 0 : stiffness, only_pulls ? 0 : friction, random.uniform(-1, 1), normal,
             link);
     s.links.link.push_back(link);
-    s.links.load.push_back({normal, random.uniform(-1, 1)});
+    s.links.law.emplace_back();
   }
   for (int k = 0; k < 20 * copies; ++k) {
     places.start();
@@ -151,6 +151,11 @@ inline System make_system(std::uint64_t seed, int copies = 1) {
     s.point_links.push_back(make_point_link(a, b, normal, stiffness, friction));
   }
   return s;
+}
+
+/// Force of a link of such a system, nN.
+inline Vec3 force_of(const Link& l) {
+  return static_cast<double>(l.gap) * Vec3(l.normal[0], l.normal[1], l.normal[2]);
 }
 
 /// Without what acts from outside: medium, boundary and the whole-cell families (whose random
