@@ -60,6 +60,7 @@ const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
       {"patch", bench_patch},
       {"pull-off", bench_pull_off},
       {"pull-off-causes", bench_pull_off_causes},
+      {"rank-memory", bench_rank_memory},
       {"ranks", bench_ranks},
       {"relaxation", bench_relaxation},
       {"skipping", bench_skipping},
@@ -109,11 +110,11 @@ int run_bench(const std::string& name, const BenchOptions& options) {
   check(found != benches().end(), fmt::format("bench {}: no such benchmark; there are: {}", name,
                                               fmt::join(list_benches(), ", ")));
   const Ranks ranks = Ranks::world();
-  if (!ranks.is_alone() && name != "ranks")
+  if (!ranks.is_alone() && name != "ranks" && name != "rank-memory")
     runs::together(ranks, [&] {
       throw Error(
-          fmt::format("bench {} is one process: start it without mpirun. Only bench ranks "
-                      "measures several.",
+          fmt::format("bench {} is one process: start it without mpirun. Only bench ranks and "
+                      "rank-memory measure several.",
                       name));
     });
   const int threads = options.threads > 0 ? options.threads : processor_count();

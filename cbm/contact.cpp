@@ -205,8 +205,10 @@ void add_coupling(ContactWorkspace& work, std::span<Contact> obstacle,
 
 void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
                        const contact::ContactList& contacts, solve::System& system) {
-  double* force = system.force.data() + in.first_row * kPointStride;
-  for_each_number(work.force.size(), [&](std::size_t k) { force[k] += work.force[k]; });
+  const std::size_t first = in.first_row * kPointStride;
+  for_each_own_number(system, [&](std::size_t k) {
+    if (k >= first && k - first < work.force.size()) system.force[k] += work.force[k - first];
+  });
   system.point_links.resize(work.pair.size());
   for (const Contact& k : contacts.sphere_obstacle()) {
     if (acts_on_moving_vessel(in, k)) continue;

@@ -51,7 +51,7 @@ struct ContactWorkspace {
   std::vector<std::pair<int, int>> segment;  ///< (cell, vessel segment) near pairs
   std::vector<double> list_position, list_radius;
   geometry::Network list_network;  ///< moving vessels at the last rebuild
-  std::vector<double> force;       ///< [n_row][3][lane] nN of all pairs; by: find_contacts
+  RowVector<double> force;         ///< [n_row][3][lane] nN of all pairs; by: find_contacts
   std::vector<std::pair<int, int>> touching;  ///< new touching set, committed with an accepted step
   std::vector<std::vector<std::pair<int, int>>> touching_part;  ///< of other threads than the first
   std::vector<TypeFactors> type_factors;  ///< [type]; written by: find_contacts

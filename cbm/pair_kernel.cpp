@@ -223,12 +223,11 @@ class RangeSearch {
 
  private:
   void clear() {
-    const std::size_t from = first_, to = last_;
     std::fill(work_.contact_area.begin() + first_, work_.contact_area.begin() + last_, 0.0);
-    std::fill(work_.force.begin() + static_cast<std::ptrdiff_t>(from / kLanes * kPointStride),
-              work_.force.begin() +
-                  static_cast<std::ptrdiff_t>((to + kLanes - 1) / kLanes * kPointStride),
-              0.0);
+    for (auto cell = static_cast<std::size_t>(first_); cell < static_cast<std::size_t>(last_);
+         cell += kLanes)
+      if (!work_.is_ghost(cell))
+        std::fill_n(work_.force.data() + cell / kLanes * kPointStride, kPointStride, 0.0);
     touching_.clear();
   }
 
@@ -257,7 +256,7 @@ class RangeSearch {
       if (cell < first_ || cell >= last_) return;
       const std::size_t i = cell;
       const Address at = cell_address(0, i);
-      for (std::size_t m = 0; m < 3; ++m)
+      for (std::size_t m = 0; m < 3 && !work_.is_ghost(i); ++m)
         work_.force[at + m * kLanes] += sign * batch_.value.force[l] * batch_.value.normal[m][l];
       work_.contact_area[i] += batch_.value.area[l];
       if (work_.coupling.empty()) return;
@@ -307,7 +306,7 @@ void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
   const std::size_t n = in.state.n_cell();
   set_size(work.force, in.state.position.size());
   set_size(link, work.pair.size());
-  set_size(work.contact_area, n);
+  work.contact_area.resize(n);
   compute_type_factors(in.params, in.options, work);
   const std::size_t n_part = n > kParallelCells ? static_cast<std::size_t>(thread_count()) : 1;
   work.touching_part.resize(n_part - 1);

@@ -141,9 +141,10 @@ Command add_run(CLI::App& app, const std::string& command_line) {
       ->type_name("WALL");
   add_wall_time_limit(*command, arguments->max_walltime);
   command
-      ->add_option("--max-memory", arguments->max_memory,
-                   "stop with a checkpoint when more is in use, e.g. 16GB (default: 95 % of the "
-                   "machine's)")
+      ->add_option(
+          "--max-memory", arguments->max_memory,
+          "stop with a checkpoint when a process uses more, e.g. 16GB (default: 95 % of the "
+          "machine's, divided among the processes on it)")
       ->type_name("SIZE");
   command
       ->add_option("--sharing", arguments->sharing,

@@ -47,6 +47,10 @@ class TriangleList {
     for (std::size_t k = 0; k < high_.size(); ++k)
       high_[k] = static_cast<std::uint16_t>(static_cast<std::uint32_t>(triangle[k]) >> 16);
   }
+  /// Memory of the list, bytes.
+  std::size_t memory() const {
+    return entry_.capacity() * sizeof(std::uint32_t) + high_.capacity() * sizeof(std::uint16_t);
+  }
 
  private:
   static constexpr std::uint32_t kLow = 0xffff;

@@ -9,6 +9,7 @@
 #include "coupling/life/rules.hpp"
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/start_up.hpp"
+#include "coupling/step/held_contacts.hpp"
 #include "coupling/step/workspace_size.hpp"
 #include "coupling/substances/responses.hpp"
 
@@ -41,6 +42,8 @@ void start_anew(Clock& clock) {
 Simulation::Simulation(World world) : world_(std::move(world)) { resize(); }
 
 void Simulation::resize() { size_workspace(world_, work_); }
+
+void Simulation::complete_state() { complete_contacts(world_.ranks, world_.state); }
 
 double Simulation::time_to_event(const Observer& observer) const {
   if (!is_running()) return time_to_phase_event(world_);

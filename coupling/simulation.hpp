@@ -45,6 +45,10 @@ class Simulation {
   /// Sizes the workspace anew. Call it after cells were added, removed or changed from outside.
   void resize();
 
+  /// Brings to every process what it does not have of the state, before the state is read from
+  /// outside. Collective.
+  void complete_state();
+
   /// Advances with all events until `end`, s since t = 0, through start-up if it is not over. A
   /// step that fails at dissolving cells removes them and is repeated.
   /// @return not ok if a step could not be accepted or the process was asked to stop; the state is

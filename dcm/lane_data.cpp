@@ -31,8 +31,22 @@ void fill_tension(const State& s, std::size_t lane, LaneData& data) {
   }
 }
 
+bool is_ghost(std::span<const std::uint8_t> ghost, std::size_t lane) {
+  return !ghost.empty() && ghost[lane] != 0;
+}
+
+/// Removes the numbers of all groups, and their memory where the cells belong to other processes.
+void clear_groups(std::span<const std::uint8_t> ghost, std::vector<std::vector<double>>& groups) {
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    if (is_ghost(ghost, k * kLanes))
+      groups[k] = std::vector<double>();
+    else
+      groups[k].clear();
+}
+
 /// Sizes and links of nuclei.
-void refresh_nucleus_lanes(const State& s, double time, LaneData& data) {
+void refresh_nucleus_lanes(const State& s, double time, LaneData& data,
+                           std::span<const std::uint8_t> ghost) {
   NucleusLanes& n = data.nucleus;
   if (!has_nuclei(s)) {
     n = {};
@@ -41,9 +55,10 @@ void refresh_nucleus_lanes(const State& s, double time, LaneData& data) {
   n.radius.resize(s.n_lane());
   n.unit.assign(s.n_lane(), 1.0);
   n.link.resize(s.group.size());
-  for (std::vector<double>& of_group : n.link) of_group.clear();
+  clear_groups(ghost, n.link);
   for (std::size_t l = 0; l < s.n_lane(); ++l) {
     n.radius[l] = s.group[l / kLanes].nucleus.size * data.radius[l];
+    if (is_ghost(ghost, l)) continue;
     const BirthShape& birth = s.birth[l];
     if (!birth.link.empty() && !birth.is_forgotten(time))
       fill_lane(n.link[l / kLanes], birth.link, birth.weight.at(time), l % kLanes);
@@ -58,17 +73,19 @@ LaneData make_lane_data(const State& state, double time) {
   return data;
 }
 
-void refresh_lane_data(const State& state, double time, LaneData& data) {
+void refresh_lane_data(const State& state, double time, LaneData& data,
+                       std::span<const std::uint8_t> ghost) {
   const std::size_t n = state.n_lane();
   refresh_reference_radii(state, time, data.radius);
   data.area.assign(n, 1.0);
   data.active.assign(n, 0.0);
   for (auto* factors : {&data.edge, &data.triangle, &data.tension, &data.length}) {
     factors->resize(state.group.size());
-    for (std::vector<double>& of_group : *factors) of_group.clear();
+    clear_groups(ghost, *factors);
   }
   for (std::size_t l = 0; l < n; ++l) {
     data.active[l] = state.active(l) ? 1.0 : 0.0;
+    if (is_ghost(ghost, l)) continue;
     fill_tension(state, l, data);
     const BirthShape& birth = state.birth[l];
     if (birth.is_forgotten(time)) continue;
@@ -81,7 +98,7 @@ void refresh_lane_data(const State& state, double time, LaneData& data) {
   for (auto* factors : {&data.edge, &data.triangle, &data.tension, &data.length})
     for (std::vector<double>& of_group : *factors)
       if (of_group.empty()) of_group.shrink_to_fit();
-  refresh_nucleus_lanes(state, time, data);
+  refresh_nucleus_lanes(state, time, data, ghost);
 }
 
 GroupView view_group(const State& state, const LaneData& lanes, const solve::System& s,

@@ -2,6 +2,8 @@
 /// Per-lane references of the cells at the end of a step, and the group views made of them.
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "dcm/group_view.hpp"
@@ -31,7 +33,10 @@ struct LaneData {
 };
 /// Lane data at a time, s.
 LaneData make_lane_data(const State& state, double time);
-void refresh_lane_data(const State& state, double time, LaneData& data);
+/// @param ghost  [n_lane] 1: cell of another process, whose group gets no numbers per element;
+///     empty: none
+void refresh_lane_data(const State& state, double time, LaneData& data,
+                       std::span<const std::uint8_t> ghost = {});
 
 /// View of one group. Blocks of the deformable cells come first in the system.
 GroupView view_group(const State& state, const LaneData& lanes, const solve::System& system,

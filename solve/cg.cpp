@@ -76,7 +76,7 @@ PassEnd run_pass(Operator& op, std::span<const double> residual, const PassPlan&
 
 /// x += size * correction.
 template <class T>
-void add_correction(const System& s, double size, const std::vector<T>& correction,
+void add_correction(const System& s, double size, const RowVector<T>& correction,
                     std::span<double> x) {
   for_each_own_number(s, [&](std::size_t k) { x[k] += size * static_cast<double>(correction[k]); });
 }
@@ -112,13 +112,14 @@ CgResult solve_cg(const CgProblem& problem, std::span<double> x, const CgOptions
                   CgWorkspace& work) {
   const auto [op, b, coarse, start_product] = problem;
   std::span<const double> product = start_product;
-  copy_numbers(b, work.residual);
+  set_size(work.residual, b.size());
+  for_each_own_number(op.system(), [&](std::size_t k) { work.residual[k] = b[k]; });
   set_size(work.product, b.size());
   const double rhs = std::sqrt(op.precondition(work.residual, {}));
   CgResult result;
   if (!std::isfinite(rhs)) return fail(result, "the right-hand side is not finite");
   if (rhs == 0) {
-    std::ranges::fill(x, 0.0);
+    for_each_own_number(op.system(), [&](std::size_t k) { x[k] = 0; });
     return result;
   }
 

@@ -32,15 +32,28 @@ struct CgResult {
 /// Vectors of one pass.
 template <class T>
 struct CgVectors {
-  std::vector<T> correction, residual, direction, preconditioned, product;
+  RowVector<T> correction, residual, direction, preconditioned, product;
+
+  template <class F>
+  void for_each_row_array(const F& f) {
+    for (auto* v : {&correction, &residual, &direction, &preconditioned, &product}) f(*v);
+  }
 };
 
 /// Scratch, sized on first use.
 struct CgWorkspace {
-  std::vector<double> residual;  ///< b - A x of the solution returned
-  std::vector<double> product;   ///< scratch; free for other use between solves
+  RowVector<double> residual;  ///< b - A x of the solution returned
+  RowVector<double> product;   ///< scratch; free for other use between solves
   CgVectors<float> single;
   CgVectors<double> full;
+
+  template <class F>
+  void for_each_row_array(const F& f) {
+    f(residual);
+    f(product);
+    single.for_each_row_array(f);
+    full.for_each_row_array(f);
+  }
 };
 
 /// Linear system A x = b with its preconditioner.

@@ -116,7 +116,8 @@ void CoarseSpace::place_cells(std::span<const double> position,
                               std::span<const std::uint8_t> active) {
   const System& s = *system_;
   cell_.assign(s.block.size() * kLanes, -1);
-  arm_.assign(s.n_dof(), 0.0f);
+  set_size(arm_, s.n_dof());
+  clear_own_rows(s, kPointStride, arm_);
   center_.clear();
   size_.clear();
   block_of_cell_.clear();
@@ -125,6 +126,11 @@ void CoarseSpace::place_cells(std::span<const double> position,
     const std::size_t n = s.block[b].pattern->n_point;
     for (int l = 0; l < kLanes; ++l) {
       if (!active[b * kLanes + l]) continue;
+      cell_[b * kLanes + l] = static_cast<int>(center_.size());
+      center_.emplace_back(Vec3::Zero());
+      size_.push_back(0);
+      block_of_cell_.push_back(b);
+      if (!s.ownership.owns(b)) continue;
       Vec3 mean = Vec3::Zero();
       for (std::size_t i = row; i < row + n; ++i)
         mean += load_point(position.data(), make_address(i, l));
@@ -133,17 +139,17 @@ void CoarseSpace::place_cells(std::span<const double> position,
       for (std::size_t i = row; i < row + n; ++i)
         sum += (load_point(position.data(), make_address(i, l)) - mean).squaredNorm();
       const double size = n > 1 ? std::sqrt(sum / static_cast<double>(n)) : 0;
-      for (std::size_t i = row; size > 0 && s.ownership.owns(b) && i < row + n; ++i) {
+      for (std::size_t i = row; size > 0 && i < row + n; ++i) {
         const Vec3 arm = (load_point(position.data(), make_address(i, l)) - mean) / size;
         for (int c = 0; c < 3; ++c)
           arm_[make_address(i, l) + static_cast<Address>(c * kLanes)] = static_cast<float>(arm[c]);
       }
-      cell_[b * kLanes + l] = static_cast<int>(center_.size());
-      center_.push_back(mean);
-      block_of_cell_.push_back(b);
-      size_.push_back(size);
+      center_.back() = mean;
+      size_.back() = size;
     }
   }
+  gather_cells(center_);
+  gather_cells(size_);
 }
 
 int CoarseSpace::cell_of(Point p) const {
@@ -198,10 +204,11 @@ void CoarseSpace::gather_rows() {
 }
 
 /// Gathers the values of cells that other processes own.
-void CoarseSpace::gather_cells(std::vector<Vec6>& v) const {
+template <class T>
+void CoarseSpace::gather_cells(std::vector<T>& v) const {
   const Ownership& ownership = system_->ownership;
   if (ownership.is_whole()) return;
-  std::vector<Vec6> own, all;
+  std::vector<T> own, all;
   for (std::size_t c = 0; c < v.size(); ++c)
     if (owns(static_cast<int>(c))) own.push_back(v[c]);
   gather_in_order(
@@ -214,11 +221,11 @@ void CoarseSpace::gather_cells(std::vector<Vec6>& v) const {
 /// rotation.
 void CoarseSpace::add_cells(const Operator& op) {
   const System& s = *system_;
-  std::vector<double> mode(s.n_dof()), product(s.n_dof());
+  RowVector<double> mode(s.n_dof()), product(s.n_dof());
   for (int m = 0; m < 6; ++m) {
     double unit[6 * kLanes] = {};
     for (int l = 0; l < kLanes; ++l) unit[m * kLanes + l] = 1;
-    std::ranges::fill(mode, 0.0);
+    clear_own_rows(s, kPointStride, mode);
     for (std::size_t k = 0; k < s.block.size(); ++k) {
       if (!s.ownership.owns(k)) continue;
       const Block& b = s.block[k];

@@ -27,6 +27,18 @@ class CoarseSpace {
   double add(std::span<const float> r, std::span<float> z) const;
   double add(std::span<const double> r, std::span<double> z) const;
 
+  /// Memory of all that is not an array over rows, bytes.
+  std::size_t memory() const {
+    return memory_of(cell_) + memory_of(block_of_cell_) + memory_of(center_) + memory_of(size_) +
+           memory_of(start_) + memory_of(column_) + memory_of(block_) + memory_of(small_);
+  }
+
+  /// Calls f(array) for all arrays over rows.
+  template <class F>
+  void for_each_row_array(const F& f) {
+    f(arm_);
+  }
+
  private:
   using Vec6 = Eigen::Matrix<double, 6, 1>;
   using Mat6 = Eigen::Matrix<double, 6, 6>;
@@ -42,7 +54,8 @@ class CoarseSpace {
   bool owns(int cell) const { return system_->ownership.owns(block_of_cell_[cell]); }
   void make_pattern();
   void gather_rows();
-  void gather_cells(std::vector<Vec6>& v) const;
+  template <class T>
+  void gather_cells(std::vector<T>& v) const;
   void add_cells(const Operator& op);
   void add_links(std::span<const double> position);
   /// Adds the entries of one contact to the rows of the cells that a part owns.
@@ -59,7 +72,7 @@ class CoarseSpace {
   const System* system_ = nullptr;
   std::vector<int> cell_;  ///< [n_block * kLanes] number of the cell, -1: none
   std::vector<std::size_t> block_of_cell_;
-  std::vector<float> arm_;    ///< [n_row][3][lane] (x - centre) / size of the cell
+  RowVector<float> arm_;      ///< [n_row][3][lane] (x - centre) / size of the cell
   std::vector<Vec3> center_;  ///< [cell] um
   std::vector<double>
       size_;  ///< CSR pattern of the lower triangle; columns ascend, the diagonal is last

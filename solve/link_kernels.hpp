@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/parallel/make_room.hpp"
+#include "core/parallel/row_vector.hpp"
 #include "solve/links.hpp"
 #include "solve/packed.hpp"
 
@@ -82,6 +83,9 @@ struct PointPairs {
   std::vector<Point> b;
   std::vector<SymBlock> block;
 
+  std::size_t memory() const {
+    return memory_of(row) + memory_of(b) + memory_of(block);
+  }  ///< bytes
   void clear() {
     row.clear();
     b.clear();

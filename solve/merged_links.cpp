@@ -127,7 +127,7 @@ void LinkMerger::add_across(const System& s, PointPairs& pairs) {
   for (const PointPairs& p : part_) pairs.append(p);
 }
 
-void LinkMerger::add_within(const System& s, std::vector<float>& edge) {
+void LinkMerger::add_within(const System& s, RowVector<float>& edge) {
   const std::size_t n_block = s.block.size();
   set_size(edge, s.spring.size() / kSpringStride * kEdgeStride);
   end_.clear();
@@ -164,6 +164,14 @@ void LinkMerger::add_within(const System& s, std::vector<float>& edge) {
     write_edges(block.pattern->spring.size(), s.spring.data() + block.first_spring * kSpringStride,
                 sum.data(), edge.data() + block.first_spring * kEdgeStride);
   });
+}
+
+std::size_t LinkMerger::memory() const {
+  std::size_t bytes = memory_of(run_) + memory_of(group_) + memory_of(end_);
+  for (const std::vector<LinkRun>& runs : found_) bytes += memory_of(runs);
+  for (const PointPairs& pairs : part_) bytes += pairs.memory();
+  for (const PointPairTable& table : table_) bytes += table.memory();
+  return bytes;
 }
 
 void LinkMerger::merge(const System& s, MergedLinks& out) {

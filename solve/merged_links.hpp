@@ -24,8 +24,8 @@ bool is_merged(const System& system, const Link& link);
 
 /// Merged contacts of a system.
 struct MergedLinks {
-  PointPairs pairs;         ///< across the cells
-  std::vector<float> edge;  ///< [n_spring][6][lane] nN/um, springs with the pairs within a side
+  PointPairs pairs;       ///< across the cells
+  RowVector<float> edge;  ///< [n_spring][6][lane] nN/um, springs with the pairs within a side
 };
 
 /// Merges the contacts of one pair of cells at a time; the result does not depend on the number of
@@ -33,6 +33,7 @@ struct MergedLinks {
 class LinkMerger {
  public:
   void merge(const System& system, MergedLinks& out);
+  std::size_t memory() const;  ///< of the scratch, bytes
 
  private:
   /// Consecutive contacts that join the same two cells.
@@ -48,7 +49,7 @@ class LinkMerger {
   };
   void update_runs(const System& system);
   void add_across(const System& system, PointPairs& pairs);
-  void add_within(const System& system, std::vector<float>& edge);
+  void add_within(const System& system, RowVector<float>& edge);
 
   std::vector<std::vector<LinkRun>> found_;  ///< [thread]
   std::vector<LinkRun> run_;                 ///< sorted by pair of cells

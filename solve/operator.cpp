@@ -205,7 +205,7 @@ void Operator::release() {
   merge_ = {};
   merger_ = {};
   merged_ = false;
-  scratch_ = std::vector<Line>();  // assigning {} would keep the memory
+  scratch_ = RowVector<Line>();  // assigning {} would keep the memory
 }
 
 void Operator::prepare(const System& system) {
@@ -228,7 +228,7 @@ void Operator::prepare(const System& system) {
 InverseView Operator::inverse_of(std::size_t block) const {
   const Block& b = system_->block[block];
   InverseView view{b.pattern->n_point, inverse_.data() + b.first_row * kSymStride, 0, {}};
-  for (const std::vector<float>& u : rank_one_)
+  for (const RowVector<float>& u : rank_one_)
     if (!b.still && b.first_row * kPointStride < u.size())
       view.vector[view.n_family++] = u.data() + b.first_row * kPointStride;
   return view;
@@ -379,6 +379,16 @@ double Operator::dot(In<T> a, In<T> b) const {
                         n * kPointStride));
     });
   });
+}
+
+std::size_t Operator::memory() const {
+  std::size_t bytes = memory_of(range_of_row_) + merger_.memory() + merge_.pairs.memory();
+  for (const ThreadRange& range : range_) {
+    for (const ShareLists* lists : {&range.link, &range.point_link, &range.single, &range.pair})
+      for (const std::vector<Share>& list : *lists) bytes += memory_of(list);
+    bytes += memory_of(range.external) + memory_of(range.external_point);
+  }
+  return bytes;
 }
 
 #define ACINUS_INSTANTIATE(T)                                                               \

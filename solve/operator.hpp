@@ -99,6 +99,21 @@ class Operator {
   /// boundary. Changes the right-hand side, not the matrix: prepare comes after.
   void add_link_forces(System& system, const LinkForce& force);
 
+  /// Ghost points of the present contacts.
+  std::span<const Point> ghost_points() const { return exchange_.ghost_points(); }
+
+  /// Calls f(array) for all arrays over rows.
+  template <class F>
+  void for_each_row_array(const F& f) {
+    f(inverse_);
+    f(scratch_);
+    f(merge_.edge);
+    for (RowVector<float>& u : rank_one_) f(u);
+  }
+
+  /// Memory of all that is not an array over rows, bytes.
+  std::size_t memory() const;
+
   const System& system() const { return *system_; }
   std::size_t n_sent_points() const { return exchange_.n_sent(); }  ///< sent in one product
 
@@ -148,16 +163,16 @@ class Operator {
   bool merged_ = false;            ///< products in float use merge_
   LinkMerger merger_;
   MergedLinks merge_;
-  std::vector<float> inverse_;  ///< [n_row][6][lane]
+  RowVector<float> inverse_;  ///< [n_row][6][lane]
   /// [family][rows of its blocks][3][lane] vectors u of InverseView.
-  std::vector<std::vector<float>> rank_one_;
+  std::vector<RowVector<float>> rank_one_;
   PointExchange exchange_;
   /// Scratch, one cache line per point: packed vectors in double (two halves of a line) or float,
   /// or the diagonal blocks. Never two of them at once.
   struct alignas(64) Line {
     std::byte bytes[64];
   };
-  mutable std::vector<Line> scratch_;
+  mutable RowVector<Line> scratch_;
 };
 
 }  // namespace acinus::solve

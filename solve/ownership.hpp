@@ -36,18 +36,28 @@ inline std::vector<BlockRun> find_own_runs(const Ownership& o, std::size_t n) {
   return runs;
 }
 
-/// Gathers values of items that are computed by one process each, on all of them, in the order of
-/// the items.
+/// Processes that get gathered values.
+enum class Receivers { kAll, kRoot };
+
+/// Gathers values of items that are computed by one process each, in the order of the items.
 /// @param owner  owner(k): rank of item k < n
 /// @param count  count(k): its number of values
 /// @param own    values of own items
+/// @param all    values of all items; empty on processes that do not receive them
 template <class T, class Owner, class Count>
 void gather_in_order(const Ranks& ranks, std::size_t n, const Owner& owner, const Count& count,
-                     const std::vector<T>& own, std::vector<T>& all) {
+                     const std::vector<T>& own, std::vector<T>& all,
+                     Receivers receivers = Receivers::kAll,
+                     Ranks::Place place = Ranks::Place::current()) {
   std::vector<T> by_rank;
   std::vector<std::size_t> next;
-  ranks.gather<T>(own, by_rank, &next);
+  const bool at_root = receivers == Receivers::kRoot;
+  if (at_root)
+    ranks.gather_at_root<T>(own, by_rank, &next, place);
+  else
+    ranks.gather<T>(own, by_rank, &next, place);
   all.clear();
+  if (at_root && !ranks.is_root()) return;
   all.reserve(by_rank.size());
   for (std::size_t k = 0; k < n; ++k) {
     std::size_t& from = next[owner(k)];

@@ -24,6 +24,8 @@ class PointExchange {
   /// Gets points of other processes in a vector [n_row][3][lane].
   void fetch(std::span<double> x) const;
 
+  std::span<const Point> ghost_points() const { return receive_; }
+
   std::size_t n_sent() const {
     return send_.size();
   }  ///< points sent, counted once per receiving process

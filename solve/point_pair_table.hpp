@@ -76,6 +76,10 @@ class PointPairTable {
     }
   }
 
+  std::size_t memory() const {  ///< bytes
+    return memory_of(slot_) + memory_of(pair_) + memory_of(block_) + memory_of(next_);
+  }
+
  private:
   CellPoints a_, b_;
   std::vector<std::uint32_t> slot_;  ///< [n_a][n_b] 1 + number of the pair; 0: none

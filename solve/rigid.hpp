@@ -39,7 +39,7 @@ struct RigidWorkspace {
   std::vector<double> squared_reach;  ///< [group] um^2
   std::vector<int> tie_of_cell;       ///< [n_block * kLanes] index of tie, -1: none
   std::vector<Mat6> tie;              ///< resistance of the boundary to the motion of a cell
-  std::vector<double> mode;           ///< scratch; free for other use between solves
+  RowVector<double> mode;             ///< scratch; free for other use between solves
 };
 
 /// Vectors of the solve, [n_row][3][lane].

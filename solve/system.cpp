@@ -5,6 +5,17 @@
 #include "core/parallel/arrays.hpp"
 
 namespace acinus::solve {
+namespace {
+
+/// Clears the elements of own blocks.
+void clear_own(const System& s, RowVector<float>& v, std::size_t Block::*first,
+               std::size_t stride) {
+  for_each_own_number(
+      s, [&](const Block& b) { return b.*first * stride; }, v.size(),
+      [&](std::size_t k) { v[k] = 0; });
+}
+
+}  // namespace
 
 void index_springs(BlockPattern& p) {
   p.first_spring_of.assign(p.n_point + 1, 0);
@@ -46,37 +57,57 @@ void set_blocks(System& system, std::vector<Block> blocks) {
   set_size(system.external_force, system.n_dof());
   set_size(system.medium, system.n_row * kLanes);
   set_size(system.spring, n_spring * kSpringStride);
-  assign_zeros(system.hinge, n_hinge * kHingeStride);
-  assign_zeros(system.face, n_face * kFaceStride);
-  assign_zeros(system.beam, n_beam * kBeamStride);
+  set_size(system.hinge, n_hinge * kHingeStride);
+  set_size(system.face, n_face * kFaceStride);
+  set_size(system.beam, n_beam * kBeamStride);
+  clear_own(system, system.hinge, &Block::first_hinge, kHingeStride);
+  clear_own(system, system.face, &Block::first_face, kFaceStride);
+  clear_own(system, system.beam, &Block::first_beam, kBeamStride);
   clear_loads(system);
 }
 
-void gather_rows(const System& s, std::span<double> x) {
+void stream_rows(const System& s, std::span<const double> x,
+                 const std::function<void(std::size_t, std::span<const double>)>& put,
+                 std::size_t most) {
+  const auto begin = [&](std::size_t b) { return s.row_of(b) * kPointStride; };
+  const auto rows_of = [&](std::size_t b) { return x.subspan(begin(b), begin(b + 1) - begin(b)); };
   const Ownership& ownership = s.ownership;
-  if (ownership.is_whole()) return;
-  std::vector<double> own, all;
-  const auto n_number = [&](std::size_t b) {
-    return (s.row_of(b + 1) - s.row_of(b)) * kPointStride;
-  };
-  for (const auto& [first, last] : s.own) {
-    const auto from = x.begin() + static_cast<std::ptrdiff_t>(s.row_of(first) * kPointStride);
-    own.insert(own.end(), from,
-               x.begin() + static_cast<std::ptrdiff_t>(s.row_of(last) * kPointStride));
+  const std::size_t n = s.block.size();
+  if (ownership.is_whole()) {
+    put(0, x);
+    return;
   }
-  gather_in_order(
-      ownership.ranks, s.block.size(), [&](std::size_t b) { return ownership.owner[b]; }, n_number,
-      own, all);
-  std::ranges::copy(all, x.begin());
+  std::vector<double> own, by_rank;
+  std::vector<std::size_t> next;
+  for (std::size_t first = 0, last = 0; first < n; first = last) {
+    own.clear();
+    do {
+      const std::span<const double> rows = rows_of(last);
+      if (ownership.owns(last)) own.insert(own.end(), rows.begin(), rows.end());
+    } while (++last < n && s.row_of(last + 1) - s.row_of(first) <= most);
+    ownership.ranks.gather<double>(own, by_rank, &next);
+    for (std::size_t b = first; b < last; ++b) {
+      const std::size_t count = begin(b + 1) - begin(b);
+      std::size_t& from = next[ownership.owner[b]];
+      put(begin(b), std::span<const double>(by_rank).subspan(from, count));
+      from += count;
+    }
+  }
+}
+
+void gather_rows(const System& s, std::span<double> x) {
+  if (s.ownership.is_whole()) return;
+  stream_rows(s, x, [&](std::size_t k, std::span<const double> rows) {
+    std::ranges::copy(rows, x.begin() + static_cast<std::ptrdiff_t>(k));
+  });
 }
 
 void clear_loads(System& system) {
-  clear_numbers(system.force);
-  clear_numbers(system.external_force);
-  clear_numbers(system.medium);
-  clear_numbers(system.spring);
+  for (auto* v : {&system.force, &system.external_force}) clear_own_rows(system, kPointStride, *v);
+  clear_own_rows(system, kLanes, system.medium);
+  clear_own(system, system.spring, &Block::first_spring, kSpringStride);
   for (RankOne& r : system.rank_one) {
-    clear_numbers(r.vector);
+    clear_own_rows(system, kPointStride, r.vector);
     clear_numbers(r.coefficient);
   }
   system.links.clear();

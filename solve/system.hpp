@@ -8,13 +8,16 @@
 /// coefficients keep a + c >= 0, which rounding does not change). That is why elements may be
 /// floats (decision 10).
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/numbers/lanes.hpp"
+#include "core/parallel/row_vector.hpp"
 #include "core/parallel/threads.hpp"
 #include "solve/links.hpp"
 #include "solve/ownership.hpp"
@@ -80,7 +83,7 @@ struct Block {
 /// Rank-one family: one vector per cell with a non-negative coefficient; adds c g g^T. Covers
 /// blocks [0, n_block).
 struct RankOne {
-  std::vector<double> vector;       ///< [rows of the covered blocks][3][lane]
+  RowVector<double> vector;         ///< [rows of the covered blocks][3][lane]
   std::vector<double> coefficient;  ///< [n_block][lane]
 };
 
@@ -94,13 +97,13 @@ struct System {
   double friction_scale = 1;      ///< 1/h, 1/s: factor of friction in the matrix
   double stiffness_scale = 1;     ///< 1: linearly implicit; 0: friction only (explicit Euler)
 
-  std::vector<double> force;           ///< [n_row][3][lane] nN, forces inside and between cells
-  std::vector<double> external_force;  ///< [n_row][3][lane] nN, migration and prescribed loads
-  std::vector<double> medium;          ///< [n_row][lane] nN s/um, friction with the medium at rest
-  std::vector<float> spring;           ///< [n_spring][5][lane]; a and c in nN/um
-  std::vector<float> hinge;            ///< [n_hinge][9][lane] sqrt(nN/um)
-  std::vector<float> face;             ///< [n_face][6][lane] sqrt(nN/um)
-  std::vector<float> beam;             ///< [n_beam][12][lane] sqrt(nN/um)
+  RowVector<double> force;           ///< [n_row][3][lane] nN, forces inside and between cells
+  RowVector<double> external_force;  ///< [n_row][3][lane] nN, migration and prescribed loads
+  RowVector<double> medium;          ///< [n_row][lane] nN s/um, friction with the medium at rest
+  RowVector<float> spring;           ///< [n_spring][5][lane]; a and c in nN/um
+  RowVector<float> hinge;            ///< [n_hinge][9][lane] sqrt(nN/um)
+  RowVector<float> face;             ///< [n_face][6][lane] sqrt(nN/um)
+  RowVector<float> beam;             ///< [n_beam][12][lane] sqrt(nN/um)
   std::vector<RankOne> rank_one;
   Links links;                         ///< contacts of surfaces
   std::vector<PointLink> point_links;  ///< contacts of spheres; friction from node to node
@@ -126,12 +129,50 @@ void for_each_own_number(const System& s, const F& f) {
   });
 }
 
+/// Calls f(k) for the indices k of own blocks in an array.
+/// @param offset  offset(b): index of the first number of a block
+/// @param n       length of the array, which may end before the last block
+template <class Offset, class F>
+void for_each_own_number(const System& s, const Offset& offset, std::size_t n, const F& f) {
+  for (const auto& [first, last] : s.own) {
+    const std::size_t begin = std::min(n, first < s.block.size() ? offset(s.block[first]) : n);
+    const std::size_t end = std::min(n, last < s.block.size() ? offset(s.block[last]) : n);
+    for_each_number(end - begin, [&](std::size_t k) { f(begin + k); });
+  }
+}
+
+/// Clears the rows of own blocks in an array with `stride` numbers a row.
+template <class T>
+void clear_own_rows(const System& s, std::size_t stride, RowVector<T>& v) {
+  for_each_own_number(
+      s, [&](const Block& b) { return b.first_row * stride; }, v.size(),
+      [&](std::size_t k) { v[k] = 0; });
+}
+
+/// Calls f(array) for all arrays over rows and elements, in which rows of other processes have no
+/// memory.
+template <class S, class F>
+void for_each_row_array(S& system, const F& f) {
+  for (auto* v : {&system.force, &system.external_force, &system.medium}) f(*v);
+  for (auto* v : {&system.spring, &system.hinge, &system.face, &system.beam}) f(*v);
+  for (auto& family : system.rank_one) f(family.vector);
+}
+
 /// Sizes all arrays for the given blocks (offsets are filled in) and clears them. @pre ownership
 void set_blocks(System& system, std::vector<Block> blocks);
 
 /// Gathers the rows of all processes: every row of x becomes that of its owner.
 /// @param x  [n_row][3][lane]
 void gather_rows(const System& system, std::span<double> x);
+
+/// Gathers the rows of all processes a part at a time: calls put(k, rows) for whole blocks in their
+/// order, of which rows[0] has index k in vectors [n_row][3][lane]. With one process the rows are
+/// all of x. Collective.
+/// @param x     [n_row][3][lane], of which only own rows are read
+/// @param most  rows at a time; by default 8 MB of them
+void stream_rows(const System& system, std::span<const double> x,
+                 const std::function<void(std::size_t, std::span<const double>)>& put,
+                 std::size_t most = 40000);
 
 /// Zeroes every load that models add to; keeps capacity and scales. Hinges, faces, beams and point
 /// links are written, not added to, by the one term each belongs to.

@@ -8,7 +8,9 @@
 
 #include "bench/step/step_cost.hpp"
 #include "bench/step/step_runner.hpp"
+#include "core/parallel/memory.hpp"
 #include "core/parallel/ranks.hpp"
+#include "coupling/measure/memory_use.hpp"
 
 namespace acinus::bench {
 namespace {
@@ -68,7 +70,60 @@ BenchRow measure_case(const StepCase& c, const Ranks& ranks) {
   return row;
 }
 
+/// Memory by kind of the process that has most, and of its cells with all their neighbours.
+BenchRow measure_memory_of(StepCase c, const Ranks& ranks) {
+  constexpr double kMega = 1e6;
+  const std::uint64_t before = rss_bytes();
+  c.warm_up = 2;
+  c.once = true;  // no copy of the state
+  StepRunner runner(c, ranks);
+  const std::vector<TrafficPlace> first = Ranks::traffic_by_place();
+  const StepSample s = runner.measure();
+  const std::vector<TrafficPlace> last = Ranks::traffic_by_place();
+  const auto most = [&](std::uint64_t bytes) {
+    return spread(ranks, static_cast<double>(bytes)).most / kMega;
+  };
+  BenchRow row{c.name, runner.cells(), {{"processes", ranks.size()}}};
+  std::uint64_t sum = 0;
+  for (const coupling::MemoryUse& use : runner.measure_memory()) {
+    row.value.emplace_back(use.kind + "_MB", most(use.bytes));
+    sum += use.bytes;
+  }
+  const std::uint64_t after = rss_bytes();
+  row.value.emplace_back("all_kinds_MB", most(sum));
+  row.value.emplace_back("resident_MB", most(after - std::min(before, after)));
+  row.value.emplace_back("gathered_KB_per_step",
+                         static_cast<double>(s.traffic.gathered_bytes) / 1000 / c.steps);
+  if (!ranks.is_root()) return row;
+  print_row(row);
+  for (TrafficPlace p : last) {
+    for (const TrafficPlace& f : first)
+      if (f.place == p.place) {
+        p.calls -= f.calls;
+        p.bytes -= f.bytes;
+        p.received -= f.received;
+      }
+    if (p.calls == 0) continue;
+    const double steps = c.steps;
+    fmt::print("  {:28} per step {:6.1f} calls, {:10.2f} KB handed over, {:10.2f} KB received\n",
+               p.place, static_cast<double>(p.calls) / steps,
+               static_cast<double>(p.bytes) / 1000 / steps,
+               static_cast<double>(p.received) / 1000 / steps);
+  }
+  return row;
+}
+
 }  // namespace
+
+BenchTable bench_rank_memory(const BenchOptions&) {
+  const Ranks ranks = Ranks::world();
+  constexpr int kSteps = 2;
+  BenchTable table;
+  for (const int cells : {64, 216})
+    table.push_back(measure_memory_of(dcm_case(cells * ranks.size(), "3-point", kSteps), ranks));
+  table.push_back(measure_memory_of(cbm_case(20000 * ranks.size(), kSteps, 1), ranks));
+  return table;
+}
 
 BenchTable bench_ranks(const BenchOptions&) {
   const Ranks ranks = Ranks::world();

@@ -7,6 +7,7 @@
 
 #include "core/parallel/ranks.hpp"
 #include "core/parallel/timing.hpp"
+#include "coupling/measure/memory_use.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 
@@ -46,6 +47,9 @@ class StepRunner {
   double contacts_per_cell() const;
   double bytes_per_cell() const;
   const coupling::Workspace& work() const { return work_; }
+  std::vector<coupling::MemoryUse> measure_memory() {
+    return coupling::measure_memory(world_.state, work_);
+  }
 
  private:
   void advance(int steps);

@@ -19,6 +19,12 @@ class SharedNumbers {
 
   bool empty() const { return values_ == nullptr; }
   std::size_t size() const { return empty() ? 0 : values_->size(); }
+  /// Part of the memory that falls to this copy, bytes.
+  std::size_t memory() const {
+    return empty() ? 0
+                   : values_->capacity() * sizeof(double) /
+                         static_cast<std::size_t>(values_.use_count());
+  }
   const double* data() const { return empty() ? nullptr : values_->data(); }
   const double* begin() const { return data(); }
   const double* end() const { return data() + size(); }

@@ -6,10 +6,16 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <limits>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/parallel/row_vector.hpp"
 #include "core/parallel/stop.hpp"
 
 namespace acinus {
@@ -63,9 +69,20 @@ class Waiting {
   double started_;
 };
 
-void count_reduction(std::size_t bytes) {
+/// Counts of a line, which has one file name for all of its calls.
+std::map<std::pair<const char*, std::uint_least32_t>, TrafficPlace> g_places;
+
+TrafficPlace& count_at(const Ranks::Place& place, std::size_t bytes) {
+  TrafficPlace& at = g_places[{place.file_name(), place.line()}];
+  ++at.calls;
+  at.bytes += static_cast<std::int64_t>(bytes);
+  return at;
+}
+
+void count_reduction(std::size_t bytes, const Ranks::Place& place) {
   ++g_traffic.reductions;
   g_traffic.reduction_bytes += static_cast<std::int64_t>(bytes);
+  count_at(place, bytes);
 }
 
 MPI_Comm handle(int communicator) { return MPI_Comm_f2c(communicator); }
@@ -89,10 +106,11 @@ Ranks Ranks::world() {
   int rank = 0, size = 1;
   MPI_Comm_rank(session.communicator(), &rank);
   MPI_Comm_size(session.communicator(), &size);
+  if (size > 1) use_small_pages();
   return Ranks(rank, size, MPI_Comm_c2f(session.communicator()));
 }
 
-void Ranks::sum(std::span<ExactSum> sums) const {
+void Ranks::sum(std::span<ExactSum> sums, Place place) const {
   if (size_ == 1) return;
   // One word more says whether this process is asked to stop.
   thread_local std::vector<std::int64_t> words;
@@ -108,10 +126,10 @@ void Ranks::sum(std::span<ExactSum> sums) const {
   for (std::size_t k = 0; k < sums.size(); ++k)
     std::copy_n(words.data() + k * ExactSum::kWords, ExactSum::kWords, sums[k].words().data());
   agree_to_stop(words.back() > 0);
-  count_reduction(words.size() * sizeof(words[0]));
+  count_reduction(words.size() * sizeof(words[0]), place);
 }
 
-double Ranks::max(double value) const {
+double Ranks::max(double value, Place place) const {
   if (size_ == 1) return value;
   // MPI_MAX leaves the treatment of NaN open, so NaN travels as a second number.
   std::array<double, 2> both = {
@@ -119,27 +137,27 @@ double Ranks::max(double value) const {
       std::isnan(value) ? 1.0 : 0.0};
   const Waiting waiting;
   MPI_Allreduce(MPI_IN_PLACE, both.data(), 2, MPI_DOUBLE, MPI_MAX, handle(communicator_));
-  count_reduction(sizeof both);
+  count_reduction(sizeof both, place);
   return both[1] > 0.0 ? std::numeric_limits<double>::quiet_NaN() : both[0];
 }
 
-void Ranks::max(std::span<double> values) const {
+void Ranks::max(std::span<double> values, Place place) const {
   if (size_ == 1) return;
   const Waiting waiting;
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX,
                 handle(communicator_));
-  count_reduction(values.size_bytes());
+  count_reduction(values.size_bytes(), place);
 }
 
-std::int64_t Ranks::min(std::int64_t value) const {
+std::int64_t Ranks::min(std::int64_t value, Place place) const {
   if (size_ == 1) return value;
   const Waiting waiting;
   MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT64_T, MPI_MIN, handle(communicator_));
-  count_reduction(sizeof value);
+  count_reduction(sizeof value, place);
   return value;
 }
 
-bool Ranks::any(bool value) const { return max(value ? 1.0 : 0.0) > 0.5; }
+bool Ranks::any(bool value, Place place) const { return max(value ? 1.0 : 0.0, place) > 0.5; }
 
 void Ranks::barrier() const {
   if (size_ > 1) MPI_Barrier(handle(communicator_));
@@ -163,8 +181,8 @@ std::vector<std::size_t> Ranks::gather_sizes(std::size_t own_bytes) const {
   return start;
 }
 
-void Ranks::gather_bytes(const void* own, std::size_t own_bytes,
-                         const std::vector<std::size_t>& start, void* all) const {
+void Ranks::gather_bytes(const void* own, const std::vector<std::size_t>& start, bool at_root,
+                         void* all) const {
   const Waiting waiting;
   // MPI counts in int. What is longer goes in rounds, each with a part of what every rank has.
   const std::size_t most = kLargestCount / size_;
@@ -180,17 +198,26 @@ void Ranks::gather_bytes(const void* own, std::size_t own_bytes,
       place[r] = n;
       n += count[r];
     }
-    const bool whole = longest <= most;
-    if (!whole) buffer.resize(n);
+    const bool whole = longest <= most, receives = !at_root || is_root();
+    if (!whole && receives) buffer.resize(n);
     auto* to = static_cast<std::byte*>(all);
-    MPI_Allgatherv(static_cast<const std::byte*>(own) + done, count[rank_], MPI_BYTE,
-                   whole ? to : buffer.data(), count.data(), place.data(), MPI_BYTE,
-                   handle(communicator_));
-    for (int r = 0; r < size_ && !whole; ++r)
+    const std::byte* const from = static_cast<const std::byte*>(own) + done;
+    std::byte* const into = whole ? to : buffer.data();
+    if (at_root)
+      MPI_Gatherv(from, count[rank_], MPI_BYTE, into, count.data(), place.data(), MPI_BYTE, 0,
+                  handle(communicator_));
+    else
+      MPI_Allgatherv(from, count[rank_], MPI_BYTE, into, count.data(), place.data(), MPI_BYTE,
+                     handle(communicator_));
+    for (int r = 0; r < size_ && !whole && receives; ++r)
       std::copy_n(buffer.data() + place[r], count[r], to + start[r] + done);
   }
+}
+
+void Ranks::count_gathering(std::size_t own_bytes, std::size_t all_bytes, const Place& place) {
   ++g_traffic.gatherings;
   g_traffic.gathered_bytes += static_cast<std::int64_t>(own_bytes);
+  count_at(place, own_bytes).received += static_cast<std::int64_t>(all_bytes);
 }
 
 void Ranks::exchange_bytes(const ExchangePlan& plan, std::size_t size, const void* out,
@@ -229,5 +256,24 @@ void Ranks::abort(int exit_code) const {
 }
 
 Traffic Ranks::traffic() { return g_traffic; }
+
+std::vector<TrafficPlace> Ranks::traffic_by_place() {
+  std::map<std::string, TrafficPlace> by_name;
+  for (const auto& [at, counts] : g_places) {
+    const std::string_view file = at.first;
+    const std::string name =
+        std::string(file.substr(file.rfind('/') + 1)) + ":" + std::to_string(at.second);
+    TrafficPlace& sum = by_name[name];
+    sum.place = name;
+    sum.calls += counts.calls;
+    sum.bytes += counts.bytes;
+    sum.received += counts.received;
+  }
+  std::vector<TrafficPlace> places;
+  for (const auto& [name, counts] : by_name) places.push_back(counts);
+  std::ranges::stable_sort(places, std::greater(),
+                           [](const TrafficPlace& p) { return std::max(p.bytes, p.received); });
+  return places;
+}
 
 }  // namespace acinus

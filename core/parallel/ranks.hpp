@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <source_location>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -41,10 +43,21 @@ struct Traffic {
   double wait_s = 0;  ///< wall time within all these, s
 };
 
+/// Collective calls of one line of the program, since the start of this process.
+struct TrafficPlace {
+  std::string place;  ///< file:line
+  std::int64_t calls = 0;
+  std::int64_t bytes = 0;     ///< that this process hands over
+  std::int64_t received = 0;  ///< of gatherings: the values of all processes
+};
+
 /// Group of processes. Collective calls must be made by all of them, in the same order, and by the
 /// thread that made the group.
 class Ranks {
  public:
+  /// Line of the caller, which traffic_by_place counts.
+  using Place = std::source_location;
+
   /// Group of this process alone; every collective is the identity. Used by subworlds, tests and
   /// plain starts.
   static Ranks serial() { return Ranks(0, 1, 0); }
@@ -66,35 +79,39 @@ class Ranks {
   /// Sums over ranks in place, elementwise and exact: the same bits on every rank, and for any
   /// number of ranks. Also makes requests to stop known to all ranks at the same time
   /// (core/parallel/stop.hpp).
-  void sum(std::span<ExactSum> sums) const;
+  void sum(std::span<ExactSum> sums, Place place = Place::current()) const;
 
   /// Largest value over ranks; NaN on any rank gives NaN everywhere, so that a failed rank is
   /// noticed.
-  double max(double value) const;
+  double max(double value, Place place = Place::current()) const;
   /// Elementwise maximum over ranks, in place. @param values  without NaN
-  void max(std::span<double> values) const;
-  std::int64_t min(std::int64_t value) const;
+  void max(std::span<double> values, Place place = Place::current()) const;
+  std::int64_t min(std::int64_t value, Place place = Place::current()) const;
 
   /// True on all ranks if the value is true on one.
-  bool any(bool value) const;
+  bool any(bool value, Place place = Place::current()) const;
 
   /// Gathers the values of all ranks, in rank order, on every rank.
   /// @param start  [size + 1] first value of each rank; null: not wanted
   template <class T>
   void gather(std::span<const T> own, std::vector<T>& all,
-              std::vector<std::size_t>* start = nullptr) const {
+              std::vector<std::size_t>* start = nullptr, Place place = Place::current()) const {
     static_assert(kIsPlain<T>);
     if (size_ == 1) {
       all.assign(own.begin(), own.end());
       if (start != nullptr) *start = {0, own.size()};
       return;
     }
-    const std::vector<std::size_t> bytes = gather_sizes(own.size_bytes());
-    all.resize(bytes.back() / sizeof(T));
-    gather_bytes(own.data(), own.size_bytes(), bytes, all.data());
-    if (start == nullptr) return;
-    start->clear();
-    for (const std::size_t b : bytes) start->push_back(b / sizeof(T));
+    gather_from<T>(own, all, start, false, place);
+  }
+
+  /// Gathers the values of all ranks, in rank order, on the root; others get none.
+  /// @param start  as of gather
+  template <class T>
+  void gather_at_root(std::span<const T> own, std::vector<T>& all, std::vector<std::size_t>* start,
+                      Place place = Place::current()) const {
+    if (size_ == 1) return gather<T>(own, all, start, place);
+    gather_from<T>(own, all, start, true, place);
   }
 
   /// Sends to and receives from the peers of a plan; returns when the received values are complete.
@@ -127,12 +144,28 @@ class Ranks {
   /// Communication of this process since its start.
   static Traffic traffic();
 
+  /// Collective calls by place, those with most bytes first.
+  static std::vector<TrafficPlace> traffic_by_place();
+
  private:
   Ranks(int rank, int size, int communicator)
       : rank_(rank), size_(size), communicator_(communicator) {}
+  template <class T>
+  void gather_from(std::span<const T> own, std::vector<T>& all, std::vector<std::size_t>* start,
+                   bool at_root, const Place& place) const {
+    const std::vector<std::size_t> bytes = gather_sizes(own.size_bytes());
+    const std::size_t received = at_root && !is_root() ? 0 : bytes.back();
+    all.resize(received / sizeof(T));
+    gather_bytes(own.data(), bytes, at_root, all.data());
+    count_gathering(own.size_bytes(), received, place);
+    if (start == nullptr) return;
+    start->clear();
+    for (const std::size_t b : bytes) start->push_back(b / sizeof(T));
+  }
   std::vector<std::size_t> gather_sizes(std::size_t own_bytes) const;
-  void gather_bytes(const void* own, std::size_t own_bytes, const std::vector<std::size_t>& start,
+  void gather_bytes(const void* own, const std::vector<std::size_t>& start, bool at_root,
                     void* all) const;
+  static void count_gathering(std::size_t own_bytes, std::size_t all_bytes, const Place& place);
   void exchange_bytes(const ExchangePlan& plan, std::size_t size, const void* out, void* in) const;
   void broadcast_bytes(void* bytes, std::size_t n) const;
 

@@ -176,7 +176,9 @@ NodeMeasure measure_nodes(const World& world, const Workspace& w) {
   n.force.reserve(n_node);
   n.pressure.reserve(n_node);
   n.tension.reserve(n_node);
-  std::vector<double> contact(s.dcm.position.size(), 0.0);
+  RowVector<double> contact;
+  set_size(contact, s.dcm.position.size());
+  solve::clear_own_rows(w.system, kPointStride, contact);
   const solve::Links& links = w.system.links;
   for (std::size_t l = 0; l < links.size(); ++l) {
     const contact::Contact& k = w.contacts.all[links.law[l].contact];
@@ -210,7 +212,7 @@ NodeMeasure measure_nodes(const World& world, const Workspace& w) {
     solve::gather_in_order(
         w.system.ownership.ranks, w.dcm.body.size(), [&](std::size_t b) { return owner_of(w, b); },
         [&](std::size_t b) { return static_cast<std::size_t>(w.dcm.body[b].topology->n_node); },
-        own, values);
+        own, values, solve::Receivers::kRoot);
   };
   gather(n.force);
   gather(n.pressure);

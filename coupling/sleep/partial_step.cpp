@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "coupling/migration/leaders.hpp"
+#include "coupling/step/held_contacts.hpp"
 #include "coupling/world/cell.hpp"
 #include "dcm/contact/contact.hpp"
 
@@ -144,6 +145,7 @@ void limit_velocity(State& s, double duration) {
 
 StepResult step_awake(World& world, Workspace& w, AwakePart& kept, CellSet awake, double limit) {
   choose_leaders_of_all(world);
+  complete_contacts(world.ranks, world.state);
   if (!kept.subworld || kept.sized != w.sized) kept = {make_part(world), w.sized};
   Subworld& part = *kept.subworld;
   {
@@ -153,6 +155,7 @@ StepResult step_awake(World& world, Workspace& w, AwakePart& kept, CellSet awake
   }
   std::swap(part.work.timings, w.timings);
   StepResult result = take_step(part.world, part.work, limit);
+  complete_contacts(part.world.ranks, part.world.state);
   std::swap(part.work.timings, w.timings);
   move_counts(part.work, w);
   if (!result.accepted) return result;
@@ -188,6 +191,7 @@ LoopResult set_sleepers_velocity(World& world, Workspace& w, double duration) {
   State& s = world.state;
   if (!sleepers_move(world) || !(s.clock.last_step > 0)) return {};
   const auto scope = w.timings.scope("sleepers");
+  complete_contacts(world.ranks, s);
   CellSet sleepers = find_cells(s, true);
   CellSet ring = find_ring(world, sleepers);
   const std::unique_ptr<Subworld> made = make_part(world);
@@ -208,6 +212,7 @@ LoopResult set_sleepers_velocity(World& world, Workspace& w, double duration) {
   const LoopResult done =
       run_loop({.time_left = time_left_until(clock, clock.time + duration),
                 .advance = [&](double limit) { return take_step(part.world, part.work, limit); }});
+  complete_contacts(part.world.ranks, small);
   if (!done.ok) return done;
   move_counts(part.work, w);
   small.last_move = gather_positions(small);

@@ -60,7 +60,7 @@ constexpr double kLeastArea = 0.25;
 /// True if a move inverts a face, or nearly, or folds two faces of an edge through each other.
 /// @param first  number of the first node of the mesh among the points of the cell
 bool turns_over(const dcm::State& s, std::size_t lane, const geometry::Topology& t, int first,
-                const std::vector<double>& move) {
+                std::span<const double> move) {
   struct Normals {
     Vec3 before, after;
   };
@@ -93,7 +93,7 @@ bool turns_over(const dcm::State& s, std::size_t lane, const geometry::Topology&
 }
 
 /// True if a move inverts a face of the cortex or the nucleus of a cell.
-bool turns_over(const dcm::State& s, std::size_t lane, const std::vector<double>& move) {
+bool turns_over(const dcm::State& s, std::size_t lane, std::span<const double> move) {
   const dcm::Group& g = s.group[lane / kLanes];
   if (turns_over(s, lane, *g.topology, 0, move)) return true;
   return g.nucleus.exists() && turns_over(s, lane, *g.nucleus.topology, g.topology->n_node, move);

@@ -27,19 +27,27 @@ Vec3 rest_of_move(const Workspace& w, Address a) {
                                         : move;
 }
 
-/// Largest of these displacements, um.
+/// Largest of these displacements, um, of own points and of those in contact with them.
 double largest_rest(const Workspace& w) {
   std::atomic<double> largest2 = 0;
-  const std::size_t n_row = w.system.n_row, n_part = count_threads(n_row);
-  for_each_part(n_part, [&](std::size_t part) {
-    double here = 0;
-    for (std::size_t row = part * n_row / n_part; row < (part + 1) * n_row / n_part; ++row)
-      for (int lane = 0; lane < kLanes; ++lane)
-        here = std::max(here, rest_of_move(w, make_address(row, lane)).squaredNorm());
+  const auto raise = [&](double here) {
     double known = largest2;
     while (here > known && !largest2.compare_exchange_weak(known, here)) {
     }
-  });
+  };
+  for (const auto& [first, last] : w.system.own) {
+    const std::size_t first_row = w.system.row_of(first), n_row = w.system.row_of(last) - first_row;
+    const std::size_t n_part = count_threads(n_row);
+    for_each_part(n_part, [&](std::size_t part) {
+      double here = 0;
+      for (std::size_t row = part * n_row / n_part; row < (part + 1) * n_row / n_part; ++row)
+        for (int lane = 0; lane < kLanes; ++lane)
+          here = std::max(here, rest_of_move(w, make_address(first_row + row, lane)).squaredNorm());
+      raise(here);
+    });
+  }
+  for (const solve::Point p : w.op.ghost_points())
+    raise(rest_of_move(w, solve::address_of(p)).squaredNorm());
   return std::sqrt(largest2);
 }
 
@@ -52,7 +60,7 @@ struct ActiveLaw {
 void replace_law(const ActiveLaw& from, const ActiveLaw& to_law, const Vec3& normal,
                  solve::Link& link, solve::System& s) {
   const Vec3 change = (to_law.force - from.force) * normal;
-  std::vector<double>& to = link.b.exists() ? s.force : s.external_force;
+  RowVector<double>& to = link.b.exists() ? s.force : s.external_force;
   const solve::Stencil stencil = solve::stencil_of(link);
   for (int k = 0; k < stencil.n; ++k)
     add_point(to.data(), stencil.address[k], stencil.weight[k] * change);

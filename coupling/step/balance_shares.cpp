@@ -33,7 +33,7 @@ std::vector<double> count_work(const solve::System& s) {
 
 }  // namespace
 
-void balance_shares(const World& world, Workspace& w) {
+void balance_shares(World& world, Workspace& w) {
   const solve::Ownership& ownership = w.system.ownership;
   MeasuredCost& cost = w.cost;
   if (ownership.is_whole() || ++cost.steps < kStepsBetween) return;

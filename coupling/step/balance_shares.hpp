@@ -8,6 +8,6 @@ namespace acinus::coupling {
 
 /// Measures load imbalance at intervals of steps and repartitions the cells if it is too large.
 /// Call it after every accepted step.
-void balance_shares(const World& world, Workspace& work);
+void balance_shares(World& world, Workspace& work);
 
 }  // namespace acinus::coupling

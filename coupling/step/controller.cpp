@@ -1,16 +1,17 @@
 #include "coupling/step/controller.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 #include <utility>
 
-#include "core/parallel/arrays.hpp"
+#include "core/parallel/make_room.hpp"
 #include "core/parallel/stop.hpp"
+#include "core/parallel/threads.hpp"
 #include "coupling/step/balance.hpp"
 #include "coupling/step/balance_shares.hpp"
 #include "coupling/step/constrained_points.hpp"
+#include "coupling/step/held_contacts.hpp"
 #include "coupling/step/move_points.hpp"
 #include "coupling/step/shorten.hpp"
 #include "coupling/step/step.hpp"
@@ -18,23 +19,6 @@
 
 namespace acinus::coupling {
 namespace {
-
-/// Exchanges the touching spheres of all processes.
-void gather_touching(Workspace& w) {
-  const solve::Ownership& ownership = w.system.ownership;
-  if (ownership.is_whole()) return;
-  using Touching = std::array<int, 2>;
-  std::vector<Touching> own, all;
-  for (const auto& [a, b] : w.cbm.touching)
-    if (!w.cbm.is_ghost(static_cast<std::size_t>(a))) own.push_back({a, b});
-  std::vector<std::size_t> start;
-  ownership.ranks.gather<Touching>(own, all, &start);
-  const auto at = [&](std::size_t k) { return all.begin() + static_cast<std::ptrdiff_t>(k); };
-  for (std::size_t r = 2; r < start.size(); ++r)  // each process has them in order
-    std::inplace_merge(all.begin(), at(start[r - 1]), at(start[r]));
-  w.cbm.touching.clear();
-  for (const auto& [a, b] : all) w.cbm.touching.emplace_back(a, b);
-}
 
 /// Iterations per solve above which the coarse space is enabled, and below which it is disabled
 /// again.
@@ -73,19 +57,27 @@ void record_balance(const World& world, Workspace& w, Balance& largest) {
   largest.friction_torque = std::max(largest.friction_torque, b.friction_torque);
 }
 
+/// Moves the points of all processes and keeps their displacements.
+void move_all_points(const Workspace& w, State& s) {
+  set_size(s.last_move, w.move.size());
+  stream_rows(w.system, w.move, [&](std::size_t first, std::span<const double> move) {
+    move_points(s, first, move);
+    for_each_number(move.size(), [&](std::size_t k) { s.last_move[first + k] = move[k]; });
+  });
+}
+
 void commit(double step, const Effort& effort, World& world, Workspace& w) {
   State& s = world.state;
   const bool moves = w.constraint.prescribed_velocity;
   place_constrained(
       moves ? std::span<const double>(w.linearisation.move) : std::span<const double>{}, w);
   dcm::begin_tensions(w.dcm_params, s.dcm);
-  move_points(s, w.move);
+  move_all_points(w, s);
   place_vessels(world.params.tree, s.tree, world.params.boundary.vessels);
   dcm::advance_tensions(w.dcm_params, step, s.dcm);
   std::swap(s.cbm.touching, w.cbm.touching);
   s.leader = w.leader;
   s.leader_interval = w.leader_interval;
-  copy_numbers(w.move, s.last_move);
   s.clock.time += step;
   s.clock.last_step = step;
   s.clock.accepted += 1;
@@ -99,6 +91,7 @@ void commit(double step, const Effort& effort, World& world, Workspace& w) {
 StepResult take_step(World& world, Workspace& w, double limit) {
   State& s = world.state;
   const Numerics& n = world.params.numerics;
+  hand_over_contacts(w, s);
   StepResult result;
   Effort effort;
   w.failed_solves = 0;
@@ -112,8 +105,6 @@ StepResult take_step(World& world, Workspace& w, double limit) {
     if (a.accepted) {
       const auto scope = w.timings.scope("commit");
       s.balance = balance;
-      solve::gather_rows(w.system, w.move);
-      gather_touching(w);
       commit(step, effort, world, w);
       s.clock.rejected += result.rejections;
       s.clock.shortened += part < 1 ? 1 : 0;

@@ -43,7 +43,7 @@ double error_norm(const World& world, const Workspace& w, std::span<const double
 double estimate_error(const World& world, double step, Workspace& w) {
   const State& s = world.state;
   auto& change = w.cg.product;
-  change.resize(w.move.size());
+  set_size(change, w.move.size());
   for_each_own_number(w.system, [&](std::size_t k) { change[k] = 0.5 * w.move[k]; });
   if (has_last_move(s)) {  // else the step is compared with rest
     const double ratio = step / s.clock.last_step;

@@ -1,6 +1,7 @@
 #include "coupling/step/explicit_euler.hpp"
 
 #include <cmath>
+#include <span>
 
 namespace acinus::coupling {
 namespace {
@@ -14,7 +15,7 @@ bool shapes_oscillate(const World& world, double step, const Workspace& w) {
   for (std::size_t lane = 0; lane < s.dcm.n_lane(); ++lane) {
     if (!s.dcm.active(lane)) continue;
     const int n = s.dcm.group[lane / kLanes].n_point();
-    auto velocity = [&](const std::vector<double>& move, double h, int i) -> Vec3 {
+    auto velocity = [&](std::span<const double> move, double h, int i) -> Vec3 {
       return load_point(move.data(), dcm::node_address(s.dcm, lane, i)) / h;
     };
     Vec3 mean_now = Vec3::Zero(), mean_before = Vec3::Zero();

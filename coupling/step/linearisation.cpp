@@ -30,18 +30,24 @@ bool is_steady(const World& world) {
   return !crosses_grid(now - s.clock.last_step, now, world.params.motility.grid);
 }
 
+/// Part of the last displacement that extrapolated points make in a step. They are not
+/// extrapolated over a longer step than the last, since their motion may end.
+double extrapolated_part(const State& s, double step) {
+  return std::min(1.0, step / s.clock.last_step);
+}
+
 /// Displacements with the velocity of the last step: those of constrained cells, and on request all
-/// others. The others are not extrapolated over a longer step than the last, since their motion may
-/// end.
+/// others. With several processes those of own cells, or of all if some are constrained.
 void extrapolate_moves(const World& world, double step, bool all, const Workspace& w,
-                       std::vector<double>& move) {
+                       RowVector<double>& move) {
   const State& s = world.state;
   const double ratio = step / s.clock.last_step;
-  const double others = all ? std::min(1.0, ratio) : 0.0;
+  const double others = all ? extrapolated_part(s, step) : 0.0;
   const double constrained = w.constraint.prescribed_velocity ? ratio : 0.0;
   set_size(move, s.last_move.size());
-  for_each_number(move.size(), [&](std::size_t k) { move[k] = others * s.last_move[k]; });
-  if (!w.constraint.applies()) return;
+  const auto extrapolate = [&](std::size_t k) { move[k] = others * s.last_move[k]; };
+  if (!w.constraint.applies()) return for_each_own_number(w.system, extrapolate);
+  for_each_number(move.size(), extrapolate);
   for_each_cell(s, [&](const Cell& c) {
     if (!w.constraint.holds(c.index)) return;
     for_each_point(s, c, [&](Address a) {
@@ -67,13 +73,23 @@ const State& choose_linearisation_point(const World& world, double step, bool fi
   // If only constrained cells are extrapolated the system is that of the present positions, so that
   // F and K belong to compatible shapes.
   if (!point.moves_all) return s;
-  point.state = s;
-  move_points(point.state, point.move);
+  static_cast<PresentState&>(point.state) = s;
+  if (w.constraint.applies() || w.system.ownership.is_whole()) {
+    move_points(point.state, point.move);
+  } else {  // near cells of other processes move too
+    const double part = extrapolated_part(s, step);
+    const auto extrapolate = [&](std::size_t begin, std::vector<double>& x) {
+      for_each_number(x.size(), [&](std::size_t k) { x[k] += part * s.last_move[begin + k]; });
+    };
+    extrapolate(0, point.state.dcm.position);
+    extrapolate(s.dcm.position.size(), point.state.cbm.position);
+  }
   return point.state;
 }
 
 void compute_point_products(Workspace& w) {
   LinearisationPoint& point = w.linearisation;
+  w.op.fetch(point.move);
   for (auto* v : {&point.friction, &point.pair_friction, &point.product, &w.cg.product})
     set_size(*v, w.move.size());
   if (point.moves_all) {

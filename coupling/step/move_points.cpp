@@ -1,16 +1,33 @@
 #include "coupling/step/move_points.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "core/parallel/threads.hpp"
 
 namespace acinus::coupling {
+namespace {
 
-void move_points(State& s, std::span<const double> d) {
-  auto &dcm = s.dcm.position, &cbm = s.cbm.position;
-  for_each_number(dcm.size(), [&](std::size_t k) { dcm[k] += d[k]; });
-  for_each_number(cbm.size(), [&](std::size_t k) { cbm[k] += d[dcm.size() + k]; });
-  if (!s.tree.node.empty()) move_tree(d.subspan(dcm.size() + cbm.size()), s.tree);
+/// Adds those of the numbers first, first + 1 ... that belong to x, which begins at number `begin`.
+void add_overlap(std::size_t first, std::span<const double> by, std::size_t begin,
+                 std::vector<double>& x) {
+  const std::size_t from = std::max(first, begin),
+                    to = std::min(first + by.size(), begin + x.size());
+  if (from < to)
+    for_each_number(to - from, [&](std::size_t k) { x[from - begin + k] += by[from - first + k]; });
 }
+
+}  // namespace
+
+void move_points(State& s, std::size_t first, std::span<const double> by) {
+  auto &dcm = s.dcm.position, &cbm = s.cbm.position;
+  add_overlap(first, by, 0, dcm);
+  add_overlap(first, by, dcm.size(), cbm);
+  const std::size_t of_tree = dcm.size() + cbm.size();
+  if (!s.tree.node.empty() && first + by.size() > of_tree)
+    move_tree(by.subspan(of_tree - first), s.tree);
+}
+
+void move_points(State& s, std::span<const double> by) { move_points(s, 0, by); }
 
 }  // namespace acinus::coupling

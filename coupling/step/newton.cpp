@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "coupling/step/held_contacts.hpp"
 #include "coupling/step/move_points.hpp"
 #include "coupling/step/solve.hpp"
 #include "coupling/step/workspace_size.hpp"
@@ -39,6 +40,7 @@ struct Trial {
 /// work.rhs of the trial.   @return its norm under the preconditioner
 double newton_residual(const Equation& e, std::span<const double> d, Trial& trial) {
   trial.state = e.world.state;
+  hand_over_contacts(trial.work, trial.state);  // whose cells have owners of their own
   move_points(trial.state, d);
   e.assemble(e.world, trial.state, e.step, trial.work, {});
   trial.product.resize(d.size());
@@ -67,8 +69,8 @@ double largest_move(const Workspace& w, std::span<const double> field) {
 /// @param[in,out] size  norm of the residual
 /// @return false if no step along the correction decreases it
 bool search_line(const Equation& equation, std::span<const double> correction,
-                 std::vector<double>& move, double& size, Trial& trial) {
-  std::vector<double> tried(move.size());
+                 RowVector<double>& move, double& size, Trial& trial) {
+  RowVector<double> tried(move.size());
   double share = 1;
   for (int halving = 0; halving <= kMaxHalvings; ++halving, share /= 2) {
     for (std::size_t k = 0; k < tried.size(); ++k) tried[k] = move[k] + share * correction[k];
@@ -90,7 +92,9 @@ Status iterate_newton(const World& world, double step, const Assembler& assemble
   Trial trial;
   size_workspace(world, trial.friction);
   size_workspace(world, trial.work);
-  assemble(world, world.state, step, trial.friction, {.stiffness = false});
+  trial.state = world.state;
+  hand_over_contacts(trial.friction, trial.state);
+  assemble(world, trial.state, step, trial.friction, {.stiffness = false});
   const double done = kNewtonShare * world.params.numerics.tolerance;
   double size = newton_residual(equation, w.move, trial);
   for (int iteration = 0; iteration < kMaxNewton; ++iteration) {
@@ -98,7 +102,7 @@ Status iterate_newton(const World& world, double step, const Assembler& assemble
     Status status = solve_system(world, trial.work, effort);
     if (!status.ok) return status;
     solve::gather_rows(trial.work.system, trial.work.move);
-    const std::vector<double> correction = trial.work.move;
+    const RowVector<double> correction = trial.work.move;
     const double largest = largest_move(w, correction);
     if (largest <= done) return Status::fine();
     if (search_line(equation, correction, w.move, size, trial)) continue;

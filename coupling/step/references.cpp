@@ -10,7 +10,7 @@ void refresh_references(const World& world, const State& at, double end, Workspa
     if (!w.boundary) w.boundary = world.params.boundary;
     place_vessels(world.params.tree, at.tree, w.boundary->vessels);
   }
-  dcm::refresh_lane_data(at.dcm, end, w.lanes);
+  dcm::refresh_lane_data(at.dcm, end, w.lanes, w.dcm.ghost);
   cbm::refresh_radii(at.cbm, end, w.cbm_radius);
   cbm::refresh_strengths(at.cbm, end, w.cbm_strength);
   w.cbm_mother.clear();

@@ -36,7 +36,8 @@ double shorten_step(const World& world, double step, Workspace& w, Assessment& a
       a.usable = part;
       return 1;
     }
-    for_each_number(w.move.size(), [&](std::size_t i) { w.move[i] *= factor; });
+    for_each_own_number(w.system, [&](std::size_t i) { w.move[i] *= factor; });
+    w.op.fetch(w.move);
     a = assess_step(world, step * part, part, {}, w);
   }
   return a.accepted ? part : 1;

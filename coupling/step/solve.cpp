@@ -24,7 +24,7 @@ Status solve_from_guess(const World& world, Workspace& w, bool from_point, Effor
   if (!point.is_elsewhere()) return solve_system(world, w, effort);
   // A (d - point) = F - Gamma/h point, solved for d: the tolerance refers to the whole
   // displacement. That of constrained cells is known: their penalty forces would exceed all others.
-  std::vector<double>& to_point = w.rigid.mode;
+  RowVector<double>& to_point = w.rigid.mode;
   set_size(to_point, w.move.size());
   for_each_own_number(w.system, [&](std::size_t k) { to_point[k] = point.move[k]; });
   std::swap(to_point, w.move);
@@ -54,7 +54,7 @@ Status solve_step(const World& world, double step, Workspace& w, Effort& effort)
     const double ratio = step / s.clock.last_step;
     for_each_own_number(w.system, [&](std::size_t k) { w.move[k] = ratio * s.last_move[k]; });
   } else {
-    std::ranges::fill(w.move, 0.0);
+    for_each_own_number(w.system, [&](std::size_t k) { w.move[k] = 0; });
   }
   place_constrained({}, w);  // of a guess their ties would make a huge force
   return solve_from_guess(world, w, true, effort);

@@ -24,6 +24,19 @@ void refresh_params(const World& world, const State& at, double step, Workspace&
   dcm::set_dashpots(at.dcm, w.dcm_params, w.system.block);
 }
 
+/// Copies the positions of own points and of those in contact with them.
+void refresh_positions(const State& at, Workspace& w) {
+  if (w.system.ownership.is_whole()) return gather_positions(at, w.position);
+  set_size(w.position, count_unknowns(at));
+  const auto copy = [&](std::size_t k) {
+    w.position[k] = *position_of(at, static_cast<Address>(k));
+  };
+  for_each_own_number(w.system, copy);
+  for (const solve::Point p : w.op.ghost_points())
+    for (std::size_t k = 0; k < 3; ++k)
+      copy(static_cast<std::size_t>(solve::address_of(p)) + k * kLanes);
+}
+
 void add_nuclei(const dcm::ContactInput& in, Workspace& w) {
   if (!dcm::has_nuclei(in.state)) return;
   dcm::add_nucleus_links(in.state, w.dcm_params, in.lanes, w.system);
@@ -53,7 +66,6 @@ void add_loads(const World& world, const State& at, double step, const SystemTer
   w.system.friction_scale = 1 / step;
   w.system.stiffness_scale = terms.stiffness ? 1 : 0;
   solve::clear_loads(w.system);
-  gather_positions(at, w.position);
   refresh_params(world, at, step, w);
   dcm::add_loads(at.dcm, w.dcm_params, w.lanes, w.medium_area, w.forces.dcm, w.system);
   world.params.apparatus.add_loads(middle_of(world, step), {at.dcm, w.lanes, w.system});
@@ -67,6 +79,7 @@ void add_loads(const World& world, const State& at, double step, const SystemTer
     return k.force * k.normal;
   });
   w.op.prepare(w.system);
+  refresh_positions(at, w);
 }
 
 }  // namespace acinus::coupling

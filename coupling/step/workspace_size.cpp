@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/parallel/arrays.hpp"
 #include "coupling/step/ghost_cells.hpp"
+#include "coupling/step/held_contacts.hpp"
 #include "coupling/step/sharing.hpp"
 #include "dcm/loads/loads.hpp"
 
@@ -37,11 +37,14 @@ void size_workspace(const World& world, Workspace& w) {
   w.boundary.reset();
   dcm::size_rank_one(s.dcm, world.params.dcm, w.system, world.params.apparatus.count_rank_one());
   w.system.ownership = share_blocks(world, blocks, w.cost);
+  if (!w.system.ownership.is_whole()) for_each_row_array(w, [](auto& v) { release_rows(v); });
   solve::set_blocks(w.system, std::move(blocks));
   mark_ghost_cells(world, w);
   w.active = active_lanes(s);
-  assign_zeros(w.rhs, w.system.n_dof());
-  assign_zeros(w.move, w.system.n_dof());
+  for (auto* v : {&w.rhs, &w.move}) {
+    set_size(*v, w.system.n_dof());
+    solve::clear_own_rows(w.system, kPointStride, *v);
+  }
   ++w.sized;
   w.dcm.lane_of_body.clear();
   w.cbm.list_position.clear();
@@ -54,8 +57,13 @@ void size_workspace(const World& world, Workspace& w) {
 void release_scratch(Workspace& w) {
   w.op.release();
   w.cg = {};
-  w.rigid.mode = std::vector<double>();  // assigning {} would keep the memory
+  w.rigid.mode = RowVector<double>();  // assigning {} would keep the memory
   w.linearisation = {};
+}
+
+void size_workspace(World& world, Workspace& w) {
+  size_workspace(std::as_const(world), w);
+  hand_over_contacts(w, world.state);
 }
 
 }  // namespace acinus::coupling

@@ -14,4 +14,7 @@ void size_workspace(const World& world, Workspace& work);
 /// only large thing besides contacts and matrix.
 void release_scratch(Workspace& work);
 
+/// The same, and hands the contacts of spheres over to their new owners. Collective.
+void size_workspace(World& world, Workspace& work);
+
 }  // namespace acinus::coupling

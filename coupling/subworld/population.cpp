@@ -63,6 +63,12 @@ State compose(std::span<const SelectedCell<State>> dcm, std::span<const Selected
   for (std::size_t k = 0; k < dcm.size(); ++k) copy_cell(*dcm[k].state, dcm[k].index, lane[k]);
   for (std::size_t k = 0; k < cbm.size(); ++k)
     copy_cell(*cbm[k].state, cell_index(*cbm[k].state, cbm[k].index), cell_index(s, k));
+  for (std::size_t k = 0; k < cbm.size(); ++k) {
+    const State& from = *cbm[k].state;
+    if (from.holder.empty()) continue;
+    s.holder.resize(cbm.size(), kEverywhere);
+    s.holder[k] = from.holder[cbm[k].index];
+  }
   const bool shared = worth_threads(s.dcm.n_row() + s.cbm.n_row());
   for_each_index(dcm.size(), shared, [&](std::size_t k) {
     const State& from = *dcm[k].state;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "coupling/step/held_contacts.hpp"
 #include "coupling/subworld/subworld.hpp"
 #include "geometry/measures.hpp"
 
@@ -41,6 +42,7 @@ Settled settle_cells(World& world, const std::vector<std::int64_t>& cells, doubl
   CellSet fresh;
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
     if (std::ranges::find(cells, s.dcm.lineage[l]) != cells.end()) fresh.dcm.push_back(l);
+  complete_contacts(world.ranks, world.state);
   Subworld sub;
   extract_at_rest(world, fresh, find_neighbours(world, fresh, kSettleReach), sub);
   if (newton_step > 0) set_newton_steps(newton_step, sub);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "coupling/step/held_contacts.hpp"
 #include "coupling/step/loop.hpp"
 #include "coupling/step/workspace_size.hpp"
 #include "coupling/subworld/population.hpp"
@@ -158,6 +159,7 @@ Settling relax(Subworld& sub, double duration) {
   const LoopResult result =
       run_loop({.time_left = time_left_until(clock, clock.time + duration),
                 .advance = [&](double limit) { return take_step(sub.world, sub.work, limit); }});
+  complete_contacts(sub.world.ranks, sub.world.state);
   return {result.ok, result.ok ? "" : result.last.cause, result.steps};
 }
 

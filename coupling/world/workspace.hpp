@@ -29,12 +29,12 @@ struct MeasuredCost {
 /// Point of linearisation of a step, as displacements from the present positions; empty: the
 /// present positions.
 struct LinearisationPoint {
-  std::vector<double> move;           ///< [n_row][3][lane] um
-  bool moves_all = false;             ///< false: only constrained cells are displaced
-  State state;                        ///< positions at the point, if all are displaced
-  std::vector<double> friction;       ///< nN, Gamma/h times `move`; with K if not all are displaced
-  std::vector<double> product;        ///< nN, Gamma/h + K times it
-  std::vector<double> pair_friction;  ///< nN, part of `friction` between cells
+  RowVector<double> move;           ///< [n_row][3][lane] um
+  bool moves_all = false;           ///< false: only constrained cells are displaced
+  State state;                      ///< at the point, if all are displaced; no last move
+  RowVector<double> friction;       ///< nN, Gamma/h times `move`; with K if not all are displaced
+  RowVector<double> product;        ///< nN, Gamma/h + K times it
+  RowVector<double> pair_friction;  ///< nN, part of `friction` between cells
   bool is_elsewhere() const { return !move.empty(); }
 };
 
@@ -60,14 +60,14 @@ struct Workspace {
   std::vector<double> cbm_strength;  ///< [cbm cells], empty: all 1; written by: refresh_references
   std::vector<std::int64_t> cbm_mother;  ///< lineage; as cbm_strength
   std::vector<dcm::Params> dcm_params;   ///< of the step; written by: add_loads
-  std::vector<double> medium_area;       ///< [dcm rows][lane]; written by: refresh_migration
+  RowVector<double> medium_area;         ///< [dcm rows][lane]; written by: refresh_migration
   MediumFriction medium_friction;        ///< written by: refresh_migration
   CellForces forces;                     ///< written by: refresh_migration
-  std::vector<double> position;          ///< [n_row][3][lane]; written by: add_loads
+  RowVector<double> position;            ///< [n_row][3][lane]; written by: add_loads
   std::vector<std::uint8_t> active;      ///< written by: size_workspace
   Constraint constraint;                 ///< set by the owner
-  std::vector<double> rhs;               ///< written by: solve_step
-  std::vector<double> move;              ///< displacement of the step; written by: solve_step
+  RowVector<double> rhs;                 ///< written by: solve_step
+  RowVector<double> move;                ///< displacement of the step; written by: solve_step
   LinearisationPoint linearisation;      ///< written by: choose_linearisation_point
   int failed_solves = 0;                 ///< of this step; written by: take_step, assess_step
   std::vector<std::uint8_t> leader;      ///< written by: refresh_migration
@@ -75,5 +75,18 @@ struct Workspace {
   Timings timings;
   std::uint64_t sized = 0;  ///< number of calls of size_workspace: changes with the set of cells
 };
+
+/// Calls f(array) for all arrays over rows, in which rows of other processes have no memory but for
+/// points in contact with own ones.
+template <class F>
+void for_each_row_array(Workspace& w, const F& f) {
+  solve::for_each_row_array(w.system, f);
+  w.op.for_each_row_array(f);
+  w.cg.for_each_row_array(f);
+  w.coarse.for_each_row_array(f);
+  LinearisationPoint& point = w.linearisation;
+  for (auto* v : {&point.move, &point.friction, &point.product, &point.pair_friction}) f(*v);
+  for (auto* v : {&w.rigid.mode, &w.medium_area, &w.position, &w.rhs, &w.move, &w.cbm.force}) f(*v);
+}
 
 }  // namespace acinus::coupling

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "core/parallel/make_room.hpp"
 #include "core/parallel/threads.hpp"
 
 namespace acinus::coupling {
@@ -57,11 +56,11 @@ std::vector<std::uint8_t> active_lanes(const State& s) {
 }
 
 std::vector<double> gather_positions(const State& s) {
-  std::vector<double> x;
+  RowVector<double> x;
   gather_positions(s, x);
-  return x;
+  return {x.begin(), x.end()};
 }
-void gather_positions(const State& s, std::vector<double>& out) {
+void gather_positions(const State& s, RowVector<double>& out) {
   const auto &dcm = s.dcm.position, &cbm = s.cbm.position;
   const std::size_t n_cell = dcm.size() + cbm.size();
   set_size(out, count_unknowns(s));

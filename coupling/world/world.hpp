@@ -127,14 +127,13 @@ struct Balance {
       0;  ///< pair friction and changes of pair forces in a step, which need not balance
 };
 
-/// State of the world: exactly the contents of a checkpoint.
-struct State {
+/// Part of the state that a step reads: all but the displacements of the last step.
+struct PresentState {
   dcm::State dcm;
   cbm::State cbm;
   TreeState tree;
   Clock clock;
   Balance balance;
-  std::vector<double> last_move;      ///< [n_row][3][lane] um, displacement of the last step
   std::vector<std::uint8_t> leader;   ///< [dcm lanes, then cbm cells]
   std::int64_t leader_interval = -1;  ///< grid interval of the last choice of leaders
   std::vector<std::uint8_t> asleep;   ///< [dcm lanes, then cbm cells] 1: sleeps; empty: none
@@ -152,6 +151,16 @@ struct State {
   /// [dcm lanes, then cbm cells] written before each step; empty: no cell follows a gradient
   std::vector<Guidance> guidance;
 };
+
+/// State of the world: exactly the contents of a checkpoint.
+struct State : PresentState {
+  std::vector<double> last_move;  ///< [n_row][3][lane] um, displacement of the last step
+  /// [cbm cells] process that has the contacts of a sphere in cbm.touching, kEverywhere: all have
+  /// them; empty: all are everywhere, as in a checkpoint. See step/held_contacts.hpp
+  std::vector<int> holder;
+};
+
+inline constexpr int kEverywhere = -1;  ///< holder of what every process has
 
 /// Number of cells of both models.
 int count_cells(const State& state);
@@ -210,7 +219,7 @@ std::vector<std::uint8_t> active_lanes(const State& state);
 
 /// Positions of all unknowns in one array, [n_row][3][lane].
 std::vector<double> gather_positions(const State& state);
-void gather_positions(const State& state, std::vector<double>& out);
+void gather_positions(const State& state, RowVector<double>& out);
 
 /// Coordinates of a point, kLanes apart.
 double* position_of(State& state, Address point);

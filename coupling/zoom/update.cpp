@@ -14,6 +14,7 @@
 #include "core/sphere.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/migration/fading.hpp"
+#include "coupling/step/held_contacts.hpp"
 #include "coupling/step/workspace_size.hpp"
 #include "coupling/subworld/population.hpp"
 #include "coupling/subworld/settle.hpp"
@@ -239,6 +240,7 @@ ZoomReport update_zoom(World& world, Workspace& work) {
   for (const auto* list : {&all.promote, &all.demote})
     for (const Candidate& c : *list) changing.insert(c.lineage);
   const PairForces before = compute_pair_forces(world, work, changing);
+  complete_contacts(world.ranks, s);
   State old = s;
   change_models(world, all, pressure, report);
   if (!settle(world, neighbours_of(s, all.demote, before), kSettlingStep, report) ||

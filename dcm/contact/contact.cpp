@@ -144,10 +144,16 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
 }
 
 void compute_medium_areas(const ContactInput& in, const ContactWorkspace& work,
-                          std::vector<double>& medium_area) {
+                          RowVector<double>& medium_area) {
   const State& state = in.state;
   const ContactParams& c = in.options;
-  medium_area.assign(state.n_row() * kLanes, 0.0);
+  set_size(medium_area, state.n_row() * kLanes);
+  for_each_index(state.group.size(), worth_threads(state.n_row()), [&](std::size_t k) {
+    const Group& g = state.group[k];
+    if (!work.is_ghost(k * kLanes))
+      std::fill_n(medium_area.data() + g.first_row * kLanes,
+                  static_cast<std::size_t>(g.n_point()) * kLanes, 0.0);
+  });
   for_each_index(work.body.size(), worth_threads(state.n_row()), [&](std::size_t k) {
     const std::size_t lane = work.lane_of_body[k];
     if (work.is_ghost(lane)) return;

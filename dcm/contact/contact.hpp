@@ -23,6 +23,6 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
 /// Area of each node in contact with the medium, [n_row][lane] um^2: that without contact with
 /// neighbours, or all of it (whole_medium_area). @pre all shares are known
 void compute_medium_areas(const ContactInput& in, const ContactWorkspace& work,
-                          std::vector<double>& medium_area);
+                          RowVector<double>& medium_area);
 
 }  // namespace acinus::dcm

@@ -13,6 +13,11 @@ void complete_body(const State& state, std::size_t k, ContactWorkspace& work) {
   work.is_complete[k] = 1;
 }
 
+/// Returns the memory of a body of which only the box is needed.
+void release_body(contact::SurfaceBody& b) {
+  for (auto* v : {&b.node, &b.node_normal}) *v = std::vector<Vec3>();
+}
+
 }  // namespace
 
 void refresh_bodies(const State& state, ContactWorkspace& work) {
@@ -24,12 +29,15 @@ void refresh_bodies(const State& state, ContactWorkspace& work) {
       if (state.active(l)) work.lane_of_body.push_back(l);
   }
   work.body.resize(n);
-  work.is_complete.assign(n, 0);
+  if (work.is_complete.size() != n) work.is_complete.assign(n, 0);
   for_each_index(n, worth_threads(state.n_row()), [&](std::size_t k) {
     contact::SurfaceBody& b = work.body[k];
+    const bool was_complete = work.is_complete[k] != 0;
+    work.is_complete[k] = 0;
     b.topology = state.group[work.lane_of_body[k] / kLanes].topology;
     b.triangle = &b.topology->triangle;
     if (!work.is_ghost_body(k)) return complete_body(state, k, work);
+    if (!was_complete) release_body(b);
     b.box = Box{};
     for (int i = 0; i < b.topology->n_node; ++i)
       b.box.include(

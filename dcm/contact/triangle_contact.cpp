@@ -335,7 +335,7 @@ void complete_triangle_contact(const ContactInput& in, const ContactWorkspace& w
 }
 
 void add_place_remainders(const ContactInput& in, const ContactWorkspace& work,
-                          const contact::ContactList& contacts, std::vector<double>& force) {
+                          const contact::ContactList& contacts, std::span<double> force) {
   for (const Contact& k : contacts.surface()) {
     if (!is_triangle_contact(in.options, k) || k.partner != contact::Partner::kSurface) continue;
     const Vec3 x = place_at(corners_of(work.body[k.a], k.point), Contact::weights_at(k.place_a));

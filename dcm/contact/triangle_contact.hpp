@@ -72,6 +72,6 @@ void complete_triangle_contact(const ContactInput& in, const ContactWorkspace& w
 /// moved between the corners on side b to the place along the normal from side a. The moment of a
 /// contact is then zero to double precision.
 void add_place_remainders(const ContactInput& in, const ContactWorkspace& work,
-                          const contact::ContactList& contacts, std::vector<double>& force);
+                          const contact::ContactList& contacts, std::span<double> force);
 
 }  // namespace acinus::dcm

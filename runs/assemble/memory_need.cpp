@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/parallel/memory.hpp"
 #include "coupling/generate/domain.hpp"
 #include "runs/assemble/build_boundary.hpp"
 #include "runs/assemble/build_substances.hpp"
@@ -17,16 +18,22 @@ namespace {
 // Measured where cells touch all around (docs/developers/benchmarks.md: bytes_per_cell); with few
 // contacts a third of it.
 constexpr double kBytesPerNode = 450, kBytesPerSphere = 900;
+/// Part of it that every process has of all cells, by `acinus-bench rank-memory`: the state.
+constexpr double kBytesPerNodeEverywhere = 90, kBytesPerSphereEverywhere = 350;
 /// Memory of a branch point, bytes: its nodes, segments, wall and search grids.
 constexpr double kBytesPerBranch = 2000;
 
-/// Least memory of a cell, bytes: with the smallest mesh among the cell types, since types are not
-/// drawn yet.
-double bytes_per_cell(const Scene& scene) {
-  if (model_of(scene) != CellModel::kDcm) return kBytesPerSphere;
+/// Least memory of a cell, bytes, in a process that owns one of n_process cells: with the smallest
+/// mesh among the cell types, since types are not drawn yet.
+double bytes_per_cell(const Scene& scene, int n_process) {
+  const auto per_process = [&](double all, double everywhere) {
+    return everywhere + (all - everywhere) / n_process;
+  };
+  if (model_of(scene) != CellModel::kDcm)
+    return per_process(kBytesPerSphere, kBytesPerSphereEverywhere);
   int nodes = std::numeric_limits<int>::max();
   for (const auto& [name, type] : scene.cell_types) nodes = std::min(nodes, type.dcm.nodes);
-  return kBytesPerNode * nodes;
+  return per_process(kBytesPerNode, kBytesPerNodeEverywhere) * nodes;
 }
 
 double count_branches(const Scene& scene) {
@@ -51,13 +58,18 @@ std::string in_gigabytes(double bytes) { return fmt::format("{:.3g} GB", 1e-9 * 
 
 }  // namespace
 
-double estimate_memory(const Scene& scene) {
-  return count_wanted_cells(scene) * bytes_per_cell(scene) +
+double share_of_memory(int n_process) {
+  constexpr double kMostMemoryShare = 0.95;
+  return kMostMemoryShare * machine_memory() / n_process;
+}
+
+double estimate_memory(const Scene& scene, int n_process) {
+  return count_wanted_cells(scene) * bytes_per_cell(scene, n_process) +
          count_branches(scene) * kBytesPerBranch + bytes_of_fields(scene);
 }
 
-void check_memory(const Scene& scene, double limit) {
-  const double needed = estimate_memory(scene);
+void check_memory(const Scene& scene, double limit, int n_process) {
+  const double needed = estimate_memory(scene, n_process);
   if (needed <= limit) return;
   const double vessels = count_branches(scene) * kBytesPerBranch;
   const std::string what =
@@ -72,12 +84,13 @@ void check_memory(const Scene& scene, double limit) {
                 count_branches(scene))
           : fmt::format(
                 "{:.3g} cells. Take fewer (cells, lobule.cells), coarser meshes "
-                "(dcm.nodes), or spheres (model cbm)",
+                "(dcm.nodes), spheres (model cbm), or more processes (mpirun)",
                 count_wanted_cells(scene));
   throw Error(
-      fmt::format("{}: needs at least {} of memory where {} are allowed, most of it for "
+      fmt::format("{}: needs at least {} of memory{} where {} are allowed, most of it for "
                   "{}; or allow more with --max-memory.",
-                  scene.file, in_gigabytes(needed), in_gigabytes(limit), what));
+                  scene.file, in_gigabytes(needed), n_process > 1 ? " in every process" : "",
+                  in_gigabytes(limit), what));
 }
 
 }  // namespace acinus::runs

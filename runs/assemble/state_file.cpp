@@ -353,6 +353,7 @@ void put_state(const coupling::State& s, io::CheckpointData& d) {
 }
 
 void get_state(const io::CheckpointData& d, const StateTypes& types, coupling::State& s) {
+  s.holder.clear();
   get_shells(d, s.dcm);
   get_spheres(d, s.cbm);
   get_tree(d, s.tree);

@@ -113,11 +113,13 @@ Excess Recorder::write_frame(bool last) {
   std::vector<io::SeriesValue> observables;
   if (simulation_.is_running())
     observables = observe_frame({scene_, world, work, snapshot, audit}, observed_);
-  if (drawn_boundary_.node.empty() || world.params.tree.exists())
-    drawn_boundary_ = draw_boundary(world.params.boundary);
-  io::Frame frame = make_frame(world, work, snapshot, drawn_boundary_);
-  add_concentrations(world, snapshot, frame.cells);
-  if (file_) file_->append(frame, observables);
+  if (file_) {
+    if (drawn_boundary_.node.empty() || world.params.tree.exists())
+      drawn_boundary_ = draw_boundary(world.params.boundary);
+    io::Frame frame = make_frame(world, work, snapshot, drawn_boundary_);
+    add_concentrations(world, snapshot, frame.cells);
+    file_->append(frame, observables);
+  }
   write_fields(snapshot.time);
   last_frame_ = snapshot.time;
   if (audit.n_self_intersecting > 0)
@@ -198,6 +200,7 @@ io::CheckpointData Recorder::make_checkpoint() {
 }
 
 void Recorder::save() {
+  simulation_.complete_state();
   if (!file_) return;
   const auto scope = simulation_.work().timings.scope("checkpoints");
   file_->flush();
@@ -205,8 +208,8 @@ void Recorder::save() {
 }
 
 void Recorder::close(RunOutcome status, const std::string& cause) {
-  if (!file_) return;
   save();
+  if (!file_) return;
   file_->set_provenance("end", now_text());
   file_->set_provenance("status", name_of_choice(status));
   file_->close();

@@ -53,8 +53,8 @@ class Recorder {
   void add_note(const std::string& note) { notes_.info.push_back(note); }
   void add_warning(const std::string& warning) { notes_.warnings.push_back(warning); }
 
-  void save();  ///< Writes a checkpoint. @throws Error(kFileError)
-  /// Writes checkpoint, run file and summary in their final form.
+  void save();  ///< Writes a checkpoint. Collective. @throws Error(kFileError)
+  /// Writes checkpoint, run file and summary in their final form. Collective.
   void close(RunOutcome status, const std::string& cause);
 
   double last_frame() const { return last_frame_; }  ///< time of the last frame, s since t = 0

@@ -61,11 +61,6 @@ std::string resume_command(const RunOptions& options) {
   return command;
 }
 
-double memory_limit(const RunOptions& options) {
-  constexpr double kMostMemoryShare = 0.95;
-  return options.max_memory.value_or(kMostMemoryShare * machine_memory());
-}
-
 /// One run from its first to its last step.
 class SceneRun {
  public:
@@ -120,7 +115,7 @@ SceneRun::SceneRun(const Scene& scene, const RunOptions& options, BuiltWorld bui
       recorder_(scene, options, simulation_),
       end_(std::min(scene.time.end, options.until_s.value_or(scene.time.end))),
       progress_(options, end_, simulation_.world().ranks),
-      memory_limit_(memory_limit(options)) {}
+      memory_limit_(*options.max_memory) {}
 
 bool SceneRun::uses_too_much_memory() {
   constexpr double kMemoryPollInterval =
@@ -198,7 +193,8 @@ bool SceneRun::events_over() {
     return false;
   }
   was_running_ = simulation_.is_running();
-  if (wall_seconds() - last_save_ > options_.checkpoint_every_s) {
+  const bool is_due = wall_seconds() - last_save_ > options_.checkpoint_every_s;
+  if (world().ranks.any(world().ranks.is_root() && is_due)) {
     recorder_.save();
     last_save_ = wall_seconds();
   }
@@ -216,6 +212,7 @@ coupling::Observer SceneRun::observer() {
           .phase = [this](const std::string& what) { end_phase(what); },
           .start =
               [this] {
+                simulation_.complete_state();
                 if (world().ranks.is_root()) save_start(options_.out, scene_, world().state);
               },
           .life = [this](const coupling::LifeReport& report) { recorder_.add_life(report); },
@@ -368,12 +365,13 @@ int run_scene(const Scene& scene, const RunOptions& asked) {
   RunOptions options = asked;
   const ThreadShare threads = share_processors(ranks, options.threads);
   options.threads = threads.threads;
+  if (!options.max_memory) options.max_memory = share_of_memory(threads.processes);
   set_threads(options.threads);
   BuiltWorld built = together(ranks, [&] {
     const ExitAtLimit nothing_to_save;
     check_alike(ranks, fmt::format("{} {}", ACINUS_VERSION, ACINUS_FLAGS), "program");
     check_alike(ranks, scene.resolved_json, "scene");
-    check_memory(scene, memory_limit(options));
+    check_memory(scene, *options.max_memory, ranks.size());
     BuiltWorld world = build_world(scene, ranks);
     world.world.sharing = options.sharing;
     return world;

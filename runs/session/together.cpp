@@ -84,7 +84,7 @@ std::string first_text(const Ranks& ranks, const std::string& text) {
 }
 
 ThreadShare share_processors(const Ranks& ranks, int wanted) {
-  if (ranks.is_alone()) return {wanted > 0 ? wanted : processor_count(), {}};
+  if (ranks.is_alone()) return {wanted > 0 ? wanted : processor_count(), 1, {}};
   ProcessPlace own = query_place();
   std::vector<ProcessPlace> places;
   ranks.gather<ProcessPlace>(std::span(&own, 1), places);
@@ -92,7 +92,9 @@ ThreadShare share_processors(const Ranks& ranks, int wanted) {
       std::ranges::count_if(places, [&](const ProcessPlace& p) { return shares_all(p, own); }));
   own.threads = wanted > 0 ? wanted : std::max(1, CPU_COUNT(&own.processors) / sharing);
   ranks.gather<ProcessPlace>(std::span(&own, 1), places);
-  return {own.threads, list_oversubscribed(places)};
+  const auto processes = static_cast<int>(
+      std::ranges::count_if(places, [&](const ProcessPlace& p) { return p.host == own.host; }));
+  return {own.threads, processes, list_oversubscribed(places)};
 }
 
 }  // namespace acinus::runs

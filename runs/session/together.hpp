@@ -72,10 +72,11 @@ void check_alike(const Ranks& ranks, const std::string& text, const std::string&
 /// Text of the first process that has one; empty if none has.
 std::string first_text(const Ranks& ranks, const std::string& text);
 
-/// Number of threads of this process, by default its share of the processors it may use, and a
-/// warning if threads outnumber processors.
+/// Number of threads of this process, by default its share of the processors it may use, the number
+/// of processes on its machine, and a warning if threads outnumber processors.
 struct ThreadShare {
   int threads = 1;
+  int processes = 1;  ///< on this machine
   std::string warning;
 };
 ThreadShare share_processors(const Ranks& ranks, int wanted);

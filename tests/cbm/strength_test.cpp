@@ -89,7 +89,8 @@ TEST(Strength, OfOneIsNotLookedAtAndChangesNoBit) {
   Spheres s = random_spheres(6, 40, 30);
   EXPECT_TRUE(strengths_at(s.state, 0).empty());
   s.find();
-  const std::vector<double> force = s.system.force, r = s.radius(), ones(s.state.n_cell(), 1.0);
+  const auto force = s.system.force;
+  const std::vector<double> r = s.radius(), ones(s.state.n_cell(), 1.0);
   contact::ContactList contacts;
   find_contacts({s.state, s.params, s.options, {r, ones}, s.boundary}, s.work, contacts,
                 s.system.point_links);

@@ -229,7 +229,7 @@ TEST(Newton, SolvesBackwardEuler) {
       moved[k] = w.state.dcm.position[k] - start.state.dcm.position[k];
     size_workspace(start, at);
     assemble(start, step, at);
-    const std::vector<double> first_force = at.system.force;
+    const auto first_force = at.system.force;
     assemble(start, step, at, {.stiffness = false});
     at.op.apply(moved, drag);
     assemble(w, step, at);

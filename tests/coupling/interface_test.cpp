@@ -25,7 +25,7 @@ namespace {
 /// Force on every unknown, with and without the interface contacts.
 std::vector<double> forces(const World& world, Workspace& work, bool interface) {
   assemble(world, 1.0, work, {interface});
-  return work.system.force;
+  return {work.system.force.begin(), work.system.force.end()};
 }
 
 TEST(Interface, ForcesOnBothModelsSumToZero) {

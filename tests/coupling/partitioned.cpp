@@ -85,7 +85,7 @@ solve::CgResult solve_partitioned(solve::Operator& op, std::span<const double> b
                                               : n;
   solve::CgResult total;
   std::vector<double> scaled(b.size());
-  std::vector<double>& residual = work.residual;
+  RowVector<double>& residual = work.residual;
   op.precondition(b, scaled);
   const double rhs = std::sqrt(op.dot(b, scaled));
   std::vector<double> before(x.begin(), x.end()), change(x.size(), 0.0);

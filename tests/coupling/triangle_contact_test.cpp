@@ -83,7 +83,7 @@ TEST(TriangleContactSteps, ForcesAcrossTheInterfaceBalance) {
     world.params.dcm_contact.law = dcm::ContactLaw::kMaugisDugdale;
     SizedWorkspace work(world);
     assemble(world, 1.0, work);
-    std::vector<double> with = work.system.force;
+    RowVector<double> with = work.system.force;
     assemble(world, 1.0, work, {.interface = false});
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
     double sizes = 0, moments = 0;

@@ -259,7 +259,7 @@ TEST(ContactAreas, WholeMediumAreaIsTheReferenceSurface) {
     c.options.quadrature = q;
     c.options.whole_medium_area = true;
     c.find();
-    std::vector<double> medium_area;
+    RowVector<double> medium_area;
     compute_medium_areas(c.input(), c.work, medium_area);
     for (std::size_t lane : c.work.lane_of_body) {
       const dcm::Group& g = c.state.group[lane / kLanes];
@@ -278,7 +278,7 @@ TEST(ContactAreas, ContactAndFreeAreaMakeTheSurface) {
     Clump c = make_bounded_clump(92);
     c.options.quadrature = q;
     c.find();
-    std::vector<double> medium_area;
+    RowVector<double> medium_area;
     compute_medium_areas(c.input(), c.work, medium_area);
     std::vector<double> touching(c.work.body.size());
     double most = 0;

@@ -345,7 +345,7 @@ TEST(Terms, SumOfLoadsIsTheSumOfTerms) {
   Cells c = make_deformed_cells(42);
   const Params p = table_one();
   for (const Term& term : all_terms()) term.add(p, c.view(), c.system);
-  const std::vector<double> apart = c.system.force;
+  const auto apart = c.system.force;
   c.reset();
   const std::vector<double> free_area(c.state.n_row() * kLanes, 0.0);
   const std::vector<Vec3> cell_force(c.state.n_lane(), Vec3(1, 2, 3));

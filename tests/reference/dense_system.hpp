@@ -11,7 +11,7 @@ namespace acinus::reference {
 
 /// Three components of one lane of an element.
 template <class T>
-Vec3 element_vector(const std::vector<T>& element, std::size_t at, int lane) {
+Vec3 element_vector(const T& element, std::size_t at, int lane) {
   const std::size_t k = at + static_cast<std::size_t>(lane);
   return {static_cast<double>(element[k]), static_cast<double>(element[k + kLanes]),
           static_cast<double>(element[k + 2 * kLanes])};

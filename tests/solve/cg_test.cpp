@@ -269,7 +269,7 @@ TEST(Cg, SameBitsForAnyNumberOfThreads) {
       x.emplace_back(rhs.size());
       const CgResult result = solve_cg({op, rhs}, x.back(), {1e-8, 2000, precision}, work);
       EXPECT_TRUE(result.status.ok) << result.status.cause;
-      residual.push_back(work.residual);
+      residual.emplace_back(work.residual.begin(), work.residual.end());
       iterations.push_back(result.iterations);
     }
     set_threads(before);

@@ -115,7 +115,7 @@ inline System make_system(std::uint64_t seed, int copies = 1) {
   fill_elements(s, random);
   for (std::size_t n_block : {s.block.size(), std::size_t{1}}) {
     const std::size_t rows = n_block > 1 ? s.n_row : 5;
-    RankOne family{std::vector<double>(rows * kPointStride), std::vector<double>(n_block * kLanes)};
+    RankOne family{RowVector<double>(rows * kPointStride), std::vector<double>(n_block * kLanes)};
     for (double& v : family.vector) v = random.uniform(-1, 1);
     for (double& v : family.coefficient) v = random.uniform(0, 0.5);
     s.rank_one.push_back(family);
@@ -206,7 +206,8 @@ std::vector<T> random_vector_of(const System& s, std::uint64_t seed) {
   return v;
 }
 
-inline Eigen::Map<const Eigen::VectorXd> as_eigen(const std::vector<double>& v) {
+template <class V>
+Eigen::Map<const Eigen::VectorXd> as_eigen(const V& v) {
   return {v.data(), static_cast<Eigen::Index>(v.size())};
 }
 inline Eigen::VectorXd as_eigen(const std::vector<float>& v) {

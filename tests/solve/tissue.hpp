@@ -113,7 +113,7 @@ class Tissue {
   void add_elements() {
     for (double& m : system.medium) m = random_.uniform(0.05, 0.2);
     fill_elements(system, random_);
-    RankOne family{std::vector<double>(system.n_dof()),
+    RankOne family{RowVector<double>(system.n_dof()),
                    std::vector<double>(system.block.size() * kLanes)};
     for (double& v : family.vector) v = random_.uniform(-1, 1);
     for (double& v : family.coefficient) v = random_.uniform(0, 0.5);
