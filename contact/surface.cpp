@@ -1,7 +1,5 @@
 #include "contact/surface.hpp"
 
-#include <utility>
-
 namespace acinus::contact {
 
 void refresh_nodes(SurfaceBody& b) {
@@ -24,16 +22,14 @@ void refresh_nodes(SurfaceBody& b) {
 void refresh_body(SurfaceBody& b) {
   refresh_nodes(b);
   const std::size_t n = b.triangle->size();
-  std::vector<Vec3> normal(n), center(n);
-  std::vector<double> reach(n);
+  b.normal.resize(n);
+  b.center.resize(n);
+  b.reach.resize(n);
   for (std::size_t t = 0; t < n; ++t) {
-    normal[t] = triangle_normal(b, t);
-    center[t] = triangle_center(b, t);
-    reach[t] = triangle_reach(b, t);
+    b.normal[t] = compute_normal(b, t);
+    b.center[t] = compute_center(b, t);
+    b.reach[t] = compute_reach(b, t, b.center[t]);
   }
-  b.normal = std::move(normal);
-  b.center = std::move(center);
-  b.reach = std::move(reach);
 }
 
 }  // namespace acinus::contact

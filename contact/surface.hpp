@@ -52,26 +52,32 @@ inline Vec3 area_normal(const SurfaceBody& b, std::size_t triangle) {
   return (corner_of(b, triangle, 1) - x0).cross(corner_of(b, triangle, 2) - x0);
 }
 
-/// Unit normal of a triangle; zero if it is flat.
-inline Vec3 triangle_normal(const SurfaceBody& b, std::size_t triangle) {
-  if (!b.normal.empty()) return b.normal[triangle];
+/// Unit normal of a triangle from its nodes; zero if it is flat.
+inline Vec3 compute_normal(const SurfaceBody& b, std::size_t triangle) {
   const Vec3 n = area_normal(b, triangle);
   const double norm = n.norm();
   return norm > 0 ? Vec3(n / norm) : Vec3::Zero();
 }
-
-inline Vec3 triangle_center(const SurfaceBody& b, std::size_t triangle) {
-  if (!b.center.empty()) return b.center[triangle];
+inline Vec3 compute_center(const SurfaceBody& b, std::size_t triangle) {
   return (corner_of(b, triangle, 0) + corner_of(b, triangle, 1) + corner_of(b, triangle, 2)) / 3;
 }
-
 /// Circumradius of a triangle about its centre, um.
-inline double triangle_reach(const SurfaceBody& b, std::size_t triangle) {
-  if (!b.reach.empty()) return b.reach[triangle];
-  const Vec3 center = triangle_center(b, triangle);
+inline double compute_reach(const SurfaceBody& b, std::size_t triangle, const Vec3& center) {
   return std::sqrt(std::max({(corner_of(b, triangle, 0) - center).squaredNorm(),
                              (corner_of(b, triangle, 1) - center).squaredNorm(),
                              (corner_of(b, triangle, 2) - center).squaredNorm()}));
+}
+
+/// The same, as refresh_body has kept them, or else computed.
+inline Vec3 triangle_normal(const SurfaceBody& b, std::size_t triangle) {
+  return b.normal.empty() ? compute_normal(b, triangle) : b.normal[triangle];
+}
+inline Vec3 triangle_center(const SurfaceBody& b, std::size_t triangle) {
+  return b.center.empty() ? compute_center(b, triangle) : b.center[triangle];
+}
+inline double triangle_reach(const SurfaceBody& b, std::size_t triangle) {
+  return b.reach.empty() ? compute_reach(b, triangle, triangle_center(b, triangle))
+                         : b.reach[triangle];
 }
 
 /// True if the sites are triangles. A site is a group of probing points that are searched together:

@@ -201,13 +201,6 @@ void Operator::start(const System& system) {
   merged_ = false;
 }
 
-void Operator::release() {
-  merge_ = {};
-  merger_ = {};
-  merged_ = false;
-  scratch_ = RowVector<Line>();  // assigning {} would keep the memory
-}
-
 void Operator::prepare(const System& system) {
   start(system);
   share_links(true);
@@ -379,16 +372,6 @@ double Operator::dot(In<T> a, In<T> b) const {
                         n * kPointStride));
     });
   });
-}
-
-std::size_t Operator::memory() const {
-  std::size_t bytes = memory_of(range_of_row_) + merger_.memory() + merge_.pairs.memory();
-  for (const ThreadRange& range : range_) {
-    for (const ShareLists* lists : {&range.link, &range.point_link, &range.single, &range.pair})
-      for (const std::vector<Share>& list : *lists) bytes += memory_of(list);
-    bytes += memory_of(range.external) + memory_of(range.external_point);
-  }
-  return bytes;
 }
 
 #define ACINUS_INSTANTIATE(T)                                                               \

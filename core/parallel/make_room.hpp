@@ -1,9 +1,13 @@
 #pragma once
 /// Capacity of arrays that are kept and change their length little from step to step.
 
+#include <algorithm>
 #include <cstddef>
 
 namespace acinus {
+
+/// Least growth, so that short arrays are not moved at every element.
+inline constexpr std::size_t kLeastRoom = 8;
 
 /// Ensures capacity for n more elements; where it must grow, by a sixteenth of the length more. An
 /// array that is a little longer every step is then seldom moved, which costs as much as writing
@@ -14,7 +18,7 @@ void make_room(V& v, std::size_t n) {
   const std::size_t all = v.size() + n;
   if (all <= v.capacity()) return;
   if (v.empty()) v = V();  // nothing to move: the old memory is free before the new is taken
-  v.reserve(all + all / 16);
+  v.reserve(all + std::max(all / 16, kLeastRoom));
 }
 
 /// Resizes v to n elements with this growth of the capacity.

@@ -23,18 +23,18 @@ RunTotals totals(double pair, double vessel) {
 
 constexpr const char* kConsequence = "where spheres overlap this deeply";
 
-TEST(SphereOverlaps, HaveAConsequenceBeyondHalfAndAQuarterOfARadius) {
+TEST(SphereOverlaps, HaveAConsequenceBeyondHalfAndFourTenthsOfARadius) {
   const coupling::World w = spheres();
-  EXPECT_EQ(advise_sphere_overlaps(w, totals(5.9, 2.9)), "");
-  EXPECT_CONTAINS(advise_sphere_overlaps(w, totals(6.2, 2.9)), kConsequence);
-  EXPECT_CONTAINS(advise_sphere_overlaps(w, totals(5.9, 3.3)), kConsequence);
-  EXPECT_CONTAINS(advise_sphere_overlaps(w, totals(6.2, 3.3)), "stiffness_correction");
+  EXPECT_EQ(advise_sphere_overlaps(w, totals(5.9, 4.7)), "");
+  EXPECT_CONTAINS(advise_sphere_overlaps(w, totals(6.2, 4.7)), kConsequence);
+  EXPECT_CONTAINS(advise_sphere_overlaps(w, totals(5.9, 4.9)), kConsequence);
+  EXPECT_CONTAINS(advise_sphere_overlaps(w, totals(6.2, 4.9)), "stiffness_correction");
 }
 
 TEST(SphereOverlaps, AdviseALawOnlyToPlainSpheres) {
   coupling::World w = spheres();
   w.params.cbm[0].correction.term.push_back({4e3, 4});
-  const std::string text = advise_sphere_overlaps(w, totals(0, 4));
+  const std::string text = advise_sphere_overlaps(w, totals(0, 5));
   EXPECT_CONTAINS(text, kConsequence);
   EXPECT_EQ(text.find("stiffness_correction"), std::string::npos);
 }
