@@ -37,7 +37,7 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Simulator of living tissue: deformable ce
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "openmpi-bin, python3-h5py, python3-numpy")  # several processes, the reader
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "openmpi-bin, python3-h5py, python3-numpy, python3-pil")  # several processes, the reader
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 # For those who build against the library, all that cmake/acinus-config.cmake looks for and the link line names:
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, pkgconf, libblosc-dev, libeigen3-dev, libfmt-dev, libgmp-dev, libhdf5-dev, libmpfr-dev, libopenmpi-dev, libtrilinos-zoltan-dev, libxxhash-dev, libzstd-dev, nlohmann-json3-dev")

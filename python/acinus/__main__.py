@@ -4,7 +4,26 @@ import sys
 
 import acinus
 from acinus import physicell
+from acinus.film import CAMERAS, ENDINGS, write_film
 from acinus.simularium import MOST_FRAMES, write_simularium
+
+
+def make_film(a):
+    run, numbers = acinus.Run(a.run), None
+    if a.frames is not None:
+        try:
+            first, last, *every = map(int, a.frames.split(":"))
+            n = len(run)
+            numbers = range(first % n, last % n + 1, *every)
+        except (ValueError, ZeroDivisionError):
+            raise acinus.BadInput(f'--frames "{a.frames}": write FIRST:LAST or FIRST:LAST:EVERY, e.g. 0:-1:2') from None
+    try:
+        width, height = map(int, a.size.split("x"))
+        if not (64 <= width <= 8192 and 64 <= height <= 8192):
+            raise ValueError
+    except ValueError:
+        raise acinus.BadInput(f'--size "{a.size}": write WIDTHxHEIGHT, each from 64 to 8192, e.g. 800x600') from None
+    return write_film(run, a.out, numbers, a.color, a.range, a.camera, a.clip, (width, height), a.seconds)
 
 
 def main(words=None):
@@ -14,6 +33,16 @@ def main(words=None):
     one.add_argument("run")
     one.add_argument("file", help="ends in .simularium")
     one.add_argument("--frames", type=int, default=MOST_FRAMES, help=f"at most (default: {MOST_FRAMES})")
+    one = commands.add_parser("film", help="a run as an animated picture or a folder of pictures")
+    one.add_argument("run")
+    one.add_argument("out", help=f"ends in {', '.join(ENDINGS)}; without an ending: a folder of PNG pictures")
+    one.add_argument("--frames", metavar="FIRST:LAST[:EVERY]", help="numbers of frames (default: all from t = 0 on)")
+    one.add_argument("--color", default="kind", help="kind (default), type, cell or a field, e.g. pressure")
+    one.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"), help="of the colours (default: of all frames)")
+    one.add_argument("--camera", choices=CAMERAS, default="iso")
+    one.add_argument("--clip", choices="xyz", help="cut through the middle, across this axis")
+    one.add_argument("--size", default="800x600", help="WIDTHxHEIGHT in pixels")
+    one.add_argument("--seconds", type=float, default=8, help="length of the film (default: 8)")
     one = commands.add_parser("physicell-law", help="a calibrated law as a table, and as PhysiCell's repulsion")
     one.add_argument("law", help="as `acinus calibrate` writes it")
     one.add_argument("file", help="CSV")
@@ -30,6 +59,8 @@ def main(words=None):
             return acinus.call_program(*a.words).returncode
         if a.command == "simularium":
             print(write_simularium(acinus.Run(a.run), a.file, a.frames))
+        elif a.command == "film":
+            print(make_film(a))
         elif a.command == "physicell-law":
             print(physicell.write_law(acinus.Law(a.law), a.file, a.drag))
         else:
