@@ -47,6 +47,7 @@ struct Frame {
   std::vector<Field> cell_data;  ///< rows: triangles, then spheres
   Table cells;                   ///< rows of /cells: one per biological cell
   Table interface;               ///< rows of /interface: one per DCM-CBM pair in contact
+  Table contacts;                ///< rows of /contacts: one per contact of cells, if asked for
 };
 
 /// Named scalar of a time series sample.

@@ -17,7 +17,7 @@ using h5::Access;
 using h5::File;
 using h5::Format;
 
-constexpr std::int64_t kRunFileSchema[2] = {1, 1};
+constexpr std::int64_t kRunFileSchema[2] = {1, 2};
 
 File create_skeleton(const std::string& path, bool filtered) {
   File file = File::create(path, Format::kEarliest);
@@ -73,6 +73,11 @@ RunFile RunFile::open_for_append(const std::string& path, const RunFileCounts& k
   {
     const File old = File::open(path, Access::kAppend);  // puts a killed session's journal in place
     check_run_schema(old);
+    check(old.read_attribute("/", "schema_version").at(1) == kRunFileSchema[1],
+          path +
+              ": was begun by another version, whose frames have other columns. Continue it with "
+              "that version, or run the scene anew in another folder (--out).",
+          Exit::kCannotContinue);
     const RunFileCounts found = read_counts(old);
     if (std::min({keep.frame, keep.series, keep.event, keep.observable}) < 0 ||
         keep.frame > found.frame || keep.series > found.series || keep.event > found.event ||

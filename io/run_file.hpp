@@ -5,6 +5,7 @@
 /// - /VTKHDF: triangles (type 5) first, then one vertex (type 1) per sphere; one part per topology
 /// - /cells: one row per biological cell and frame, rows frame_offset[k] .. frame_offset[k + 1]
 /// - /interface: one row per DCM-CBM pair in contact, ragged in the same way
+/// - /contacts: one row per contact of two cells or of a cell with the boundary, if asked for
 /// - /series: one row per sample; attribute n_row counts the finished ones
 /// - /observables: what a scene measures, one row per frame that has some; attribute n_row
 /// - /events: time, code, message, and ragged cell_id (cell_offset); attribute n_row

@@ -38,7 +38,8 @@ TableInfo read_table_info(const File& file, const std::string& group) {
 
 /// True if the counts and offsets of a frame are consistent. The rows themselves are checked when
 /// they are read.
-bool is_possible(const FrameIndex& f, std::int64_t cells_begin, std::int64_t interface_begin) {
+/// @param before  previous frame, or an empty index
+bool is_possible(const FrameIndex& f, const FrameIndex& before) {
   constexpr std::int64_t kMost = std::int64_t{1} << 48;  // far from where sums overflow
   const auto in = [](std::int64_t x, std::int64_t low, std::int64_t high) {
     return x >= low && x <= high;
@@ -50,7 +51,9 @@ bool is_possible(const FrameIndex& f, std::int64_t cells_begin, std::int64_t int
          (f.n_connectivity - f.n_cell) % 2 == 0 && in(f.n_sphere(), 0, f.n_point) &&
          std::isfinite(f.time_s) && in(f.n_point, 0, kMost) && in(f.point_offset, 0, kMost) &&
          in(f.cell_offset, 0, kMost) && in(f.connectivity_offset, 0, kMost) &&
-         in(f.cells_end, cells_begin, kMost) && in(f.interface_end, interface_begin, kMost) &&
+         std::ranges::all_of(
+             kFrameTables,
+             [&](const FrameTable& t) { return in(f.*t.end, before.*t.end, kMost); }) &&
          are_rows(f.point_data_offset) && are_rows(f.cell_data_offset);
 }
 
@@ -110,8 +113,8 @@ RunLayout read_layout(const File& file) {
   RunLayout layout;
   layout.point_data = read_fields(file, "/VTKHDF/PointData");
   layout.cell_data = read_fields(file, "/VTKHDF/CellData");
-  layout.cells = read_table_info(file, "/cells");
-  layout.interface = read_table_info(file, "/interface");
+  for (const FrameTable& table : kFrameTables)
+    if (file.exists(table.group)) layout.*table.info = read_table_info(file, table.group);
   return layout;
 }
 
@@ -126,8 +129,6 @@ std::vector<FrameIndex> read_frame_index(const File& file, const RunLayout& layo
   const auto part = read(steps + "PartOffsets"), point = read(steps + "PointOffsets");
   const auto cell = read(steps + "CellOffsets"),
              connectivity = read(steps + "ConnectivityIdOffsets");
-  const auto cells_end = read("/cells/frame_offset", 1),
-             interface_end = read("/interface/frame_offset", 1);
   const auto n_point = file.read_all<std::int64_t>("/VTKHDF/NumberOfPoints");
   const auto n_cell = file.read_all<std::int64_t>("/VTKHDF/NumberOfCells");
   const auto n_connectivity = file.read_all<std::int64_t>("/VTKHDF/NumberOfConnectivityIds");
@@ -146,8 +147,11 @@ std::vector<FrameIndex> read_frame_index(const File& file, const RunLayout& layo
     f.point_offset = point[k];
     f.cell_offset = cell[k];
     f.connectivity_offset = connectivity[k];
-    f.cells_end = cells_end[k];
-    f.interface_end = interface_end[k];
+  }
+  for (const FrameTable& table : kFrameTables) {
+    if (!file.exists(table.group)) continue;  // no contacts before schema version 1.2
+    const auto end = read(offsets_of(table), 1);
+    for (std::size_t k = 0; k < frame.size(); ++k) frame[k].*table.end = end[k];
   }
   for (const auto& field : layout.point_data) {
     const auto offset = read(steps + "PointDataOffsets/" + field.name);
@@ -162,8 +166,7 @@ std::vector<FrameIndex> read_frame_index(const File& file, const RunLayout& layo
   }
   for (std::size_t k = 0; k < frame.size(); ++k)
     check(
-        is_possible(frame[k], k == 0 ? 0 : frame[k - 1].cells_end,
-                    k == 0 ? 0 : frame[k - 1].interface_end),
+        is_possible(frame[k], k == 0 ? FrameIndex{} : frame[k - 1]),
         fmt::format("{}: frame {} has numbers of points, cells or rows that cannot be. The file is "
                     "damaged.",
                     file.path(), k),
@@ -178,7 +181,7 @@ void copy_frames(const File& from, File& to, const RunLayout& layout,
       frame.back();  // offsets never decrease: the last frame ends every dataset
   for (const char* group : {"/VTKHDF", "/VTKHDF/PointData", "/VTKHDF/CellData", "/VTKHDF/Steps",
                             "/VTKHDF/Steps/PointDataOffsets", "/VTKHDF/Steps/CellDataOffsets",
-                            "/cells", "/interface"}) {
+                            "/cells", "/interface", "/contacts"}) {
     to.create_group(group);
   }
   to.write_attribute("/VTKHDF", "Version", from.read_attribute("/VTKHDF", "Version"));
@@ -209,11 +212,11 @@ void copy_frames(const File& from, File& to, const RunLayout& layout,
     copy_up_to("/VTKHDF/CellData/" + name, offset, last.n_cell);
     copy("/VTKHDF/Steps/CellDataOffsets/" + name, n_frame);
   }
-  for (const auto& name : table_datasets(layout.cells, "/cells")) copy(name, last.cells_end);
-  for (const auto& name : table_datasets(layout.interface, "/interface"))
-    copy(name, last.interface_end);
-  copy("/cells/frame_offset", n_frame + 1);
-  copy("/interface/frame_offset", n_frame + 1);
+  for (const FrameTable& table : kFrameTables) {
+    for (const auto& name : table_datasets(layout.*table.info, table.group))
+      copy(name, last.*table.end);
+    copy(offsets_of(table), n_frame + 1);
+  }
   to.write_attribute("/VTKHDF/Steps", "NSteps", std::span<const std::int64_t>(&n_frame, 1));
 }
 

@@ -113,8 +113,7 @@ RunLayout layout_of(const Frame& frame) {
   RunLayout layout;
   layout.point_data = describe(frame.point_data, {});
   layout.cell_data = describe(frame.cell_data, {"cell_id", "kind"});
-  layout.cells = describe(frame.cells);
-  layout.interface = describe(frame.interface);
+  for (const FrameTable& table : kFrameTables) layout.*table.info = describe(frame.*table.rows);
   return layout;
 }
 
@@ -138,15 +137,14 @@ void check_frame(const Frame& frame) {
                   frame.kind.size(), n_cell));
   for (const auto& field : frame.point_data) check_field(field, n_point, "point");
   for (const auto& field : frame.cell_data) check_field(field, n_cell, "cell");
-  check_table(frame.cells, "/cells");
-  check_table(frame.interface, "/interface");
+  for (const FrameTable& table : kFrameTables) check_table(frame.*table.rows, table.group);
 }
 
 void check_same_layout(const RunLayout& file, const RunLayout& frame) {
   check_same_fields(file.point_data, frame.point_data, "point data");
   check_same_fields(file.cell_data, frame.cell_data, "cell data");
-  check_same_table(file.cells, frame.cells, "/cells");
-  check_same_table(file.interface, frame.interface, "/interface");
+  for (const FrameTable& table : kFrameTables)
+    check_same_table(file.*table.info, frame.*table.info, table.group);
 }
 
 void check_finite(double value, const std::string& what) {

@@ -1,6 +1,7 @@
 #pragma once
 /// Layout of a run file: its fields, numbers of rows, and the first rows of each frame.
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -29,6 +30,7 @@ struct RunLayout {
   std::vector<FieldInfo> cell_data;  ///< without cell_id and kind, which every file has
   TableInfo cells;
   TableInfo interface;
+  TableInfo contacts;
   bool operator==(const RunLayout&) const = default;
 };
 
@@ -47,13 +49,25 @@ struct FrameIndex {
   std::int64_t n_point = 0, n_cell = 0, n_connectivity = 0;
   std::int64_t point_offset = 0, cell_offset = 0, connectivity_offset = 0;
   std::map<std::string, std::int64_t> point_data_offset;
-  std::map<std::string, std::int64_t> cell_data_offset;  ///< with cell_id and kind
-  std::int64_t cells_end = 0, interface_end = 0;         ///< end of this frame's table rows
+  std::map<std::string, std::int64_t> cell_data_offset;             ///< with cell_id and kind
+  std::int64_t cells_end = 0, interface_end = 0, contacts_end = 0;  ///< of this frame's table rows
 
   std::int64_t n_sphere() const { return n_cell - n_triangle(); }
   /// Number of triangles, from n_connectivity = 3 n_triangle + n_sphere.
   std::int64_t n_triangle() const { return (n_connectivity - n_cell) / 2; }
 };
+
+/// Table with any number of rows per frame: its group in the file and its places in memory.
+struct FrameTable {
+  const char* group;
+  Table Frame::*rows;
+  TableInfo RunLayout::*info;
+  std::int64_t FrameIndex::*end;
+};
+inline constexpr std::array<FrameTable, 3> kFrameTables{
+    {{"/cells", &Frame::cells, &RunLayout::cells, &FrameIndex::cells_end},
+     {"/interface", &Frame::interface, &RunLayout::interface, &FrameIndex::interface_end},
+     {"/contacts", &Frame::contacts, &RunLayout::contacts, &FrameIndex::contacts_end}}};
 
 /// Names and units of the columns of /series or /observables, in the order of the first row.
 struct RowNames {

@@ -104,11 +104,10 @@ Frame RunReader::frame(int k) const {
         {field.name, field.unit, field.components,
          read_finite<float>(file, "/VTKHDF/CellData/" + field.name, where(field.name), f.n_cell)});
   }
-  const auto begin = [&](auto end) { return k == 0 ? 0 : frame_[k - 1].*end; };
-  frame.cells =
-      read_table(file, "/cells", layout_.cells, begin(&FrameIndex::cells_end), f.cells_end);
-  frame.interface = read_table(file, "/interface", layout_.interface,
-                               begin(&FrameIndex::interface_end), f.interface_end);
+  const FrameIndex before = k == 0 ? FrameIndex{} : index(k - 1);
+  for (const FrameTable& table : kFrameTables)
+    frame.*table.rows =
+        read_table(file, table.group, layout_.*table.info, before.*table.end, f.*table.end);
   return frame;
 }
 

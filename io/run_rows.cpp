@@ -132,7 +132,7 @@ void create_index_rows(File& file, bool filtered) {
   const Storage column{.components = kOneColumn, .chunk_rows = kIndexChunkRows};
   for (const char* group : {"/VTKHDF", "/VTKHDF/PointData", "/VTKHDF/CellData", "/VTKHDF/Steps",
                             "/VTKHDF/Steps/PointDataOffsets", "/VTKHDF/Steps/CellDataOffsets",
-                            "/cells", "/interface"}) {
+                            "/cells", "/interface", "/contacts"}) {
     file.create_group(group);
   }
   const std::int64_t version[2] = {2, 0};
@@ -158,9 +158,9 @@ void create_index_rows(File& file, bool filtered) {
   for (const char* name : {"CellOffsets", "ConnectivityIdOffsets"}) {
     file.create_rows<std::int64_t>(std::string("/VTKHDF/Steps/") + name, column, "1");
   }
-  for (const std::string table : {"/cells", "/interface"}) {
-    file.create_rows<std::int64_t>(table + "/frame_offset", small, "1");
-    file.write_row<std::int64_t>(table + "/frame_offset", 0, 0);
+  for (const FrameTable& table : kFrameTables) {
+    file.create_rows<std::int64_t>(offsets_of(table), small, "1");
+    file.write_row<std::int64_t>(offsets_of(table), 0, 0);
   }
 }
 
@@ -176,8 +176,8 @@ void create_field_rows(File& file, const RunLayout& layout, bool filtered) {
   };
   for (const auto& field : layout.point_data) create(field, "PointData");
   for (const auto& field : layout.cell_data) create(field, "CellData");
-  create_table_rows(file, "/cells", layout.cells);
-  create_table_rows(file, "/interface", layout.interface);
+  for (const FrameTable& table : kFrameTables)
+    create_table_rows(file, table.group, layout.*table.info);
 }
 
 void write_frame(FrameWrite& w) {
@@ -201,8 +201,8 @@ void write_frame(FrameWrite& w) {
   for (const auto& field : frame.cell_data) write_cell_array(w, field.name, field.value);
   const FrameIndex none;
   const FrameIndex& before = w.last == nullptr ? none : *w.last;
-  index.cells_end = write_table(w.file, "/cells", frame.cells, before.cells_end);
-  index.interface_end = write_table(w.file, "/interface", frame.interface, before.interface_end);
+  for (const FrameTable& table : kFrameTables)
+    index.*table.end = write_table(w.file, table.group, frame.*table.rows, before.*table.end);
 }
 
 void write_index(File& file, std::int64_t k, const FrameIndex& index) {
@@ -218,8 +218,8 @@ void write_index(File& file, std::int64_t k, const FrameIndex& index) {
   for (const auto& [name, offset] : index.cell_data_offset) {
     write_index_value<std::int64_t>(file, "CellDataOffsets/" + name, k, offset);
   }
-  file.write_row<std::int64_t>("/cells/frame_offset", k + 1, index.cells_end);
-  file.write_row<std::int64_t>("/interface/frame_offset", k + 1, index.interface_end);
+  for (const FrameTable& table : kFrameTables)
+    file.write_row<std::int64_t>(offsets_of(table), k + 1, index.*table.end);
 }
 
 void write_counts(File& file, const RunFileCounts& counts) {

@@ -18,7 +18,7 @@ namespace acinus::io {
 /// share would be compressed anew in place, and a kill at that moment would damage the finished
 /// frame.
 inline constexpr std::int64_t kChunkRows = 16384;
-inline constexpr std::int64_t kTableChunkRows = 4096;  ///< /cells and /interface, unfiltered
+inline constexpr std::int64_t kTableChunkRows = 4096;  ///< of kFrameTables, unfiltered
 inline constexpr std::int64_t kIndexChunkRows = 1024;
 inline constexpr int kCodeWidth = 32;
 inline constexpr int kMessageWidth = 512;
@@ -26,6 +26,11 @@ inline constexpr int kMessageWidth = 512;
 void create_index_rows(h5::File& file, bool filtered);
 void create_field_rows(h5::File& file, const RunLayout& layout, bool filtered);
 void create_event_rows(h5::File& file);
+
+/// Dataset with the end of each frame's rows, after a first zero.
+inline std::string offsets_of(const FrameTable& table) {
+  return std::string(table.group) + "/frame_offset";
+}
 
 /// Groups whose rows are samples of named numbers.
 inline constexpr char kSeries[] = "/series", kObservables[] = "/observables";

@@ -13,6 +13,10 @@ struct Ramp {
     if (time <= start) return from;
     return from + (to - from) * (time - start) / (end - start);
   }
+  /// Slope to the right of a time.
+  double slope_at(double time) const {
+    return time >= start && time < end ? (to - from) / (end - start) : 0;
+  }
 };
 
 }  // namespace acinus

@@ -94,6 +94,7 @@ void visit_contacts(const World& world, const Workspace& w,
     f.a = static_cast<std::size_t>(k.a) + (sphere ? n_body : 0);
     f.force = k.force * k.normal;
     f.normal = k.normal;
+    f.record = &k;
     if (contact::is_cell(k.partner)) {
       f.b = static_cast<std::size_t>(k.b) + (k.partner == contact::Partner::kSphere ? n_body : 0);
       f.touching = f.a != f.b && (sphere || f.force.squaredNorm() > 0);

@@ -29,6 +29,7 @@ struct ContactForce {
   double area = 0;             ///< um^2, contact area with boundary
   /// True for two cells that exert a force on each other; false for folds.
   bool touching = false;
+  const contact::Contact* record = nullptr;  ///< null: a fading force
   /// True for the fading force left by a change of model. With boundary its normal and kind are
   /// unknown.
   bool fades = false;

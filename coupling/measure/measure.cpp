@@ -1,12 +1,11 @@
 #include "coupling/measure/measure.hpp"
 
 #include <algorithm>
-#include <map>
-#include <tuple>
 #include <utility>
 
 #include "core/sphere.hpp"
 #include "coupling/measure/contact_forces.hpp"
+#include "coupling/measure/contact_list.hpp"
 #include "coupling/measure/pair_contacts.hpp"
 #include "coupling/step/ghost_cells.hpp"
 #include "coupling/step/step.hpp"
@@ -32,9 +31,14 @@ int owner_of(const Workspace& w, std::size_t cell) {
   return owner_of_lane(w, lane);
 }
 
-void set_origin(const State& s, const Cycle& cycle, CellMeasure& m) {
+void set_life(const State& s, const Cycle& cycle, const Ramp& volume, CellMeasure& m) {
+  const double now = s.clock.time;
   m.parent = cycle.parent;
-  m.newborn = cycle.parent >= 0 && s.clock.time < cycle.birth + kNewborn;
+  m.newborn = cycle.parent >= 0 && now < cycle.birth + kNewborn;
+  m.fate = cycle.fate;
+  m.growth_rate = volume.slope_at(now);
+  if (cycle.duration > 0 && cycle.fate != Fate::kLyse)
+    m.progress = volume.at(now) / cycle.birth_volume - 1;
 }
 
 void add_stress(CellMeasure& m, double reference_volume, const Vec3& force, const Vec3& arm) {
@@ -57,7 +61,7 @@ CellMeasure measure_surface(const World& world, const Workspace& w, std::size_t 
   m.deformable = true;
   m.type = s.dcm.group[lane / kLanes].type;
   m.leader = lane < w.leader.size() && w.leader[lane];
-  if (lane < s.cycle.size()) set_origin(s, s.cycle[lane], m);
+  if (lane < s.cycle.size()) set_life(s, s.cycle[lane], s.dcm.volume[lane], m);
   m.center = dcm::cell_center(s.dcm, lane);
   m.radius = w.lanes.radius[lane];
   if (w.dcm.is_ghost(lane)) return m;  // its owner measures it
@@ -87,7 +91,7 @@ CellMeasure measure_sphere(const World& world, const Workspace& w, std::size_t c
   m.type = s.cbm.type[c];
   const std::size_t at = s.dcm.n_lane() + c;
   m.leader = at < w.leader.size() && w.leader[at];
-  if (at < s.cycle.size()) set_origin(s, s.cycle[at], m);
+  if (at < s.cycle.size()) set_life(s, s.cycle[at], s.cbm.volume[c], m);
   m.center = cbm::center_of(s.cbm, c);
   m.radius = w.cbm_radius[c];
   if (w.cbm.is_ghost(c)) return m;
@@ -104,39 +108,19 @@ void add_contacts(const World& world, const Workspace& w, std::vector<CellMeasur
   auto press = [&](std::size_t cell, const Vec3& force, const Vec3& arm) {
     add_stress(cells[cell], sphere_volume(cells[cell].radius), force, arm);
   };
-  struct PairSum {
-    Vec3 force = Vec3::Zero();  ///< nN, on the first cell
-    bool touching = false;
-  };
-  std::map<std::pair<std::size_t, std::size_t>, PairSum> pair_force;
-  /// nN, force of each part of the boundary on each cell
-  std::map<std::tuple<std::size_t, contact::Partner, int>, Vec3> boundary_force;
+  ContactSums sums;
   visit_contacts(world, w, [&](const ContactForce& c) {
     press(c.a, c.force, c.arm_a);
-    if (c.b == kNoCell && c.fades) return;
-    if (c.b == kNoCell) {
-      boundary_force.try_emplace({c.a, c.kind, c.index}, Vec3::Zero()).first->second += c.force;
-      cells[c.a].normal_force += c.force.dot(c.normal);
-      return;
-    }
-    press(c.b, -c.force, c.arm_b);
-    if (!c.touching && !c.fades) return;
-    PairSum& sum = pair_force[{std::min(c.a, c.b), std::max(c.a, c.b)}];
-    sum.force += c.a < c.b ? c.force : Vec3(-c.force);
-    sum.touching = sum.touching || c.touching;
+    if (c.b != kNoCell) press(c.b, -c.force, c.arm_b);
+    sums.add(c);
   });
-  for (const auto& [part, force] : boundary_force)
-    cells[std::get<0>(part)].contact_force += force.norm();
-  for (const auto& [pair, sum] : pair_force) {
-    const auto& [force, touching] = sum;
-    const double normal =
-        force.dot((cells[pair.first].center - cells[pair.second].center).normalized());
-    for (const std::size_t k : {pair.first, pair.second}) {
-      if (touching) ++cells[k].contacts;
-      cells[k].contact_force += force.norm();
-      cells[k].normal_force += normal;
+  for (const CellContact& pair : sums.list(cells))
+    for (const std::size_t k : {pair.a, pair.b}) {
+      if (k == kNoCell) continue;
+      if (pair.touching) ++cells[k].contacts;
+      cells[k].contact_force += pair.force.norm();
+      cells[k].normal_force += pair.normal_force;
     }
-  }
 }
 
 }  // namespace

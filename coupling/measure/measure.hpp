@@ -35,6 +35,9 @@ struct CellMeasure {
   double normal_force = 0;
   int contacts = 0;            ///< cells in contact
   double migration_force = 0;  ///< nN, active force on the cell
+  Fate fate = Fate::kIdle;     ///< stage in its life
+  double progress = 0;         ///< of its cycle by reference volume: 0 at birth, 1 at division
+  double growth_rate = 0;      ///< um^3/s, of the reference volume; negative in lysis
 };
 
 }  // namespace acinus::coupling

@@ -83,6 +83,15 @@ class Run:
         """One row per pair of a deformable cell and a sphere and frame, or those of one frame."""
         return make_table(*self._ragged("interface", frame))
 
+    def contacts(self, frame=None):
+        """One row per pair of cells in contact, or cell and part of the boundary, and frame, or those of one frame.
+
+        Raises NoSuchItem where the scene does not ask for them with output.contacts.
+        """
+        if not self.scene.get("output", {}).get("contacts"):
+            raise NoSuchItem(f"{self.file}: has no contacts. Run the scene with --set output.contacts=true.")
+        return make_table(*self._ragged("contacts", frame))
+
     def history(self, cell_id):
         """The rows of /cells of one cell."""
         table = self.cells()

@@ -99,6 +99,44 @@ class Reading(Family):
         history = run.history(0)
         self.assertTrue((np.diff(np.asarray(history["radius"])) >= 0).all())
 
+    def test_life(self):
+        cells = acinus.Run(self.path).cells()
+        volume = 4 / 3 * np.pi * np.asarray(cells["radius"]) ** 3
+        for i in (0, 1):
+            own = np.asarray(cells["id"]) == i
+            self.assertEqual(set(np.asarray(cells["phase"])[own]), {1})
+            rate = np.asarray(cells["growth_rate"])[own]
+            np.testing.assert_allclose(np.diff(volume[own]) / 300, rate[:-1], rtol=1e-6)
+            np.testing.assert_allclose(np.asarray(cells["cycle_progress"])[own], volume[own] / volume[own][0] - 1, atol=1e-9)
+        frame = acinus.Run(self.path)[0]
+        np.testing.assert_allclose(frame.cell_data["growth_rate"], 4 / 3 * np.pi * 8**3 / 1800, rtol=1e-6)
+        self.assertTrue((frame.cell_data["phase"] == 1).all())
+
+    def test_contacts(self):
+        with self.assertRaisesRegex(acinus.NoSuchItem, "output.contacts=true"):
+            acinus.Run(self.path).contacts()
+        path = self.root / "contacts.run"
+        run_program("run", self.root / "scene.json", "--out", path, "--quiet", "--threads", "1", "--set", "output.contacts=true")
+        run = acinus.Run(path)
+        contacts, cells = run.contacts(-1), run.cells(-1)
+        self.assertEqual(contacts.attrs["units"]["area_a"], "um^2")
+        self.assertEqual(set(np.asarray(contacts["partner"])), {0, 1})
+        for row, i in enumerate(cells["id"]):
+            first, second = np.asarray(contacts["a"]) == i, np.asarray(contacts["b"]) == i
+            area = np.asarray(contacts["area_a"])[first].sum() + np.asarray(contacts["area_b"])[second].sum()
+            self.assertAlmostEqual(area, np.asarray(cells["contact_area"])[row], delta=1e-9)
+            normal = np.asarray(contacts["normal_force"])[first | second].sum()
+            self.assertAlmostEqual(normal, np.asarray(cells["normal_force"])[row], delta=1e-12)
+
+    def test_contacts_of_a_resumed_run(self):
+        """They may be asked for when a run is resumed, and go on after frames that were cut."""
+        path = self.root / "resumed.run"
+        run_program("run", self.root / "scene.json", "--out", path, "--quiet", "--threads", "1", "--until", "20 min")
+        run_program("run", self.root / "scene.json", "--out", path, "--quiet", "--threads", "1", "--resume",
+                    "--set", "output.contacts=true")
+        contacts = acinus.Run(path).contacts()
+        self.assertEqual((min(contacts["frame"]), max(contacts["frame"])), (5, 8))
+
     def test_cells_are_sorted_by_id(self):
         run = acinus.Run(self.path)
         with h5py.File(run.file) as file:

@@ -143,6 +143,11 @@ void describe_output(Visitor& v, OutputBlock& b) {
          {.name = "compression", .meaning = "compression of the run file", .choices = "none|fast"},
          b.compress);
   v.flag({.name = "start_up", .meaning = "also write frames at t < 0"}, b.start_up);
+  v.flag(
+      {.name = "contacts",
+       .meaning = "also write the table /contacts: area and force of every pair of cells, and of "
+                  "every cell with a part of the boundary"},
+      b.contacts);
 }
 
 void describe_scene(Visitor& v, Scene& s) {

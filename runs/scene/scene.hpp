@@ -224,6 +224,7 @@ struct OutputBlock {
   int after_opening = 0;
   bool compress = true;   ///< the run file
   bool start_up = false;  ///< also write frames at t < 0
+  bool contacts = false;  ///< also write the contacts of every pair
 };
 
 struct Scene {

@@ -8,6 +8,7 @@
 
 #include "contact/jkr.hpp"
 #include "contact/wall_mesh.hpp"
+#include "core/error.hpp"
 #include "coupling/generate/pipette_surface.hpp"
 #include "coupling/generate/vessel_surface.hpp"
 #include "coupling/substances/fields.hpp"
@@ -26,17 +27,18 @@ void push(io::Field& field, double value) { field.value.push_back(static_cast<fl
 io::Table cell_table(const std::vector<CellMeasure>& cells) {
   io::Table t;
   io::IdColumn id{"id", {}}, parent{"parent", {}}, kind{"kind", {}}, type{"type", {}},
-      leader{"leader", {}}, contacts{"contacts", {}};
+      leader{"leader", {}}, contacts{"contacts", {}}, phase{"phase", {}};
   io::Column center{"center", "um", 3, {}}, radius{"radius", "um", 1, {}},
       volume{"volume", "um^3", 1, {}}, area{"area", "um^2", 1, {}},
       pressure{"pressure", "kPa", 1, {}}, cytosol{"cytosol_pressure", "kPa", 1, {}},
       stress{"stress", "kPa", 6, {}}, touching{"contact_area", "um^2", 1, {}},
       active{"migration_force", "nN", 1, {}}, pushing{"contact_force", "nN", 1, {}},
-      normal{"normal_force", "nN", 1, {}};
-  for (io::IdColumn* c : {&id, &parent, &kind, &type, &leader, &contacts})
+      normal{"normal_force", "nN", 1, {}}, progress{"cycle_progress", "1", 1, {}},
+      growth{"growth_rate", "um^3/s", 1, {}};
+  for (io::IdColumn* c : {&id, &parent, &kind, &type, &leader, &contacts, &phase})
     c->value.reserve(cells.size());
   for (io::Column* c : {&center, &radius, &volume, &area, &pressure, &cytosol, &stress, &touching,
-                        &active, &pushing, &normal})
+                        &active, &pushing, &normal, &progress, &growth})
     c->value.reserve(cells.size() * static_cast<std::size_t>(c->components));
   for (const CellMeasure& c : cells) {
     id.value.push_back(c.id);
@@ -56,13 +58,39 @@ io::Table cell_table(const std::vector<CellMeasure>& cells) {
     active.value.push_back(c.migration_force);
     pushing.value.push_back(c.contact_force);
     normal.value.push_back(c.normal_force);
+    phase.value.push_back(static_cast<std::int64_t>(c.fate));
+    progress.value.push_back(c.progress);
+    growth.value.push_back(c.growth_rate);
   }
-  for (io::IdColumn* c : {&id, &parent, &kind, &type, &leader, &contacts})
+  for (io::IdColumn* c : {&id, &parent, &kind, &type, &leader, &contacts, &phase})
     t.ids.push_back(std::move(*c));
   for (io::Column* c : {&center, &radius, &volume, &area, &pressure, &cytosol, &stress, &touching,
-                        &active, &pushing, &normal})
+                        &active, &pushing, &normal, &progress, &growth})
     t.columns.push_back(std::move(*c));
   return t;
+}
+
+/// Number of a kind of partner in /contacts: 0 to 2 are those of `kind`.
+std::int64_t number_of(contact::Partner partner) {
+  switch (partner) {
+    case contact::Partner::kSurface:
+      return 0;
+    case contact::Partner::kSphere:
+      return 1;
+    case contact::Partner::kVessel:
+      return 2;
+    case contact::Partner::kPlane:
+      return 3;
+    case contact::Partner::kCapsule:
+      return 4;
+    case contact::Partner::kMesh:
+      return 5;
+    case contact::Partner::kPipette:
+      return 6;
+    case contact::Partner::kNucleus:
+      break;
+  }
+  throw Error("internal error: a nucleus is no partner of another cell", Exit::kInternal);
 }
 
 io::Table interface_table(const std::vector<coupling::InterfaceForce>& forces) {
@@ -129,10 +157,12 @@ class FrameBuilder {
   io::Frame finish() {
     frame_.n_mesh_node = base_;
     for (io::Field* f : {&force_, &contact_, &tension_}) frame_.point_data.push_back(std::move(*f));
-    for (io::Field* f : {&type_, &volume_, &pressure_, &cytosol_, &radius_, &leader_, &strength_})
+    for (io::Field* f : {&type_, &volume_, &pressure_, &cytosol_, &radius_, &leader_, &strength_,
+                         &phase_, &growth_})
       frame_.cell_data.push_back(std::move(*f));
     frame_.cells = cell_table(snapshot_.cells);
     frame_.interface = interface_table(snapshot_.interface);
+    frame_.contacts = contact_table({}, snapshot_.cells);
     return std::move(frame_);
   }
 
@@ -153,6 +183,8 @@ class FrameBuilder {
     push(radius_, sphere_radius);
     push(leader_, c && c->leader ? 1 : 0);
     push(strength_, c ? c->strength : 1);
+    push(phase_, c ? static_cast<int>(c->fate) : 0);
+    push(growth_, c ? c->growth_rate : 0);
   }
   void add_triangles(const std::vector<std::array<int, 3>>& triangle, std::size_t n_node,
                      const CellMeasure* cell, std::uint8_t kind) {
@@ -170,7 +202,8 @@ class FrameBuilder {
   io::Field type_{"cell_type", "1", 1, {}}, volume_{"volume", "um^3", 1, {}},
       pressure_{"pressure", "kPa", 1, {}}, cytosol_{"cytosol_pressure", "kPa", 1, {}},
       radius_{"radius", "um", 1, {}}, leader_{"leader", "1", 1, {}},
-      strength_{"strength", "1", 1, {}};
+      strength_{"strength", "1", 1, {}}, phase_{"phase", "1", 1, {}},
+      growth_{"growth_rate", "um^3/s", 1, {}};
   std::int64_t base_ = 0;  ///< number of nodes so far
   std::size_t node_ = 0;   ///< number of cell nodes so far
 };
@@ -216,6 +249,23 @@ void add_concentrations(const coupling::World& world, const Snapshot& snapshot, 
     add("concentration_" + name, unit, mean[k]);
     add("exchange_" + name, (unit == "1" ? "" : unit + " ") + "um^3/s", rate[k]);
   }
+}
+
+io::Table contact_table(const std::vector<coupling::CellContact>& contacts,
+                        const std::vector<CellMeasure>& cells) {
+  io::IdColumn a{"a", {}}, b{"b", {}}, partner{"partner", {}};
+  io::Column area_a{"area_a", "um^2", 1, {}}, area_b{"area_b", "um^2", 1, {}},
+      force{"force", "nN", 3, {}}, normal{"normal_force", "nN", 1, {}};
+  for (const coupling::CellContact& c : contacts) {
+    a.value.push_back(cells[c.a].id);
+    b.value.push_back(c.b == coupling::kNoCell ? c.index : cells[c.b].id);
+    partner.value.push_back(number_of(c.partner));
+    area_a.value.push_back(c.area_a);
+    area_b.value.push_back(c.area_b);
+    for (int k = 0; k < 3; ++k) force.value.push_back(c.force[k]);
+    normal.value.push_back(c.normal_force);
+  }
+  return {{a, b, partner}, {area_a, area_b, force, normal}};
 }
 
 io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coupling/measure/audit.hpp"
+#include "coupling/measure/contact_list.hpp"
 #include "geometry/audit_body.hpp"
 #include "geometry/surface.hpp"
 #include "io/frame.hpp"
@@ -20,7 +21,12 @@ geometry::Surface draw_boundary(const contact::Boundary& boundary);
 /// and its rate of exchange.
 void add_concentrations(const coupling::World& world, const Snapshot& snapshot, io::Table& cells);
 
-/// Fills the arrays of a frame.
+/// Columns of /contacts, with a row for each contact.
+/// @param cells  that the contacts number
+io::Table contact_table(const std::vector<coupling::CellContact>& contacts,
+                        const std::vector<coupling::CellMeasure>& cells);
+
+/// Fills the arrays of a frame; its contacts have no rows.
 /// @param boundary  of draw_boundary()
 /// @pre take_snapshot() of the same moment
 io::Frame make_frame(const coupling::World& world, const coupling::Workspace& work,

@@ -113,11 +113,15 @@ Excess Recorder::write_frame(bool last) {
   std::vector<io::SeriesValue> observables;
   if (simulation_.is_running())
     observables = observe_frame({scene_, world, work, snapshot, audit}, observed_);
+  io::Table contacts;
+  if (scene_.output.contacts)
+    contacts = contact_table(coupling::list_contacts(world, work, snapshot.cells), snapshot.cells);
   if (file_) {
     if (drawn_boundary_.node.empty() || world.params.tree.exists())
       drawn_boundary_ = draw_boundary(world.params.boundary);
     io::Frame frame = make_frame(world, work, snapshot, drawn_boundary_);
     add_concentrations(world, snapshot, frame.cells);
+    frame.contacts = std::move(contacts);
     file_->append(frame, observables);
   }
   write_fields(snapshot.time);

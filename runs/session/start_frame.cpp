@@ -60,7 +60,7 @@ StartFrame make_start_frame(const Scene& asked) {
       make_frame(world, simulation.work(), snapshot, draw_boundary(world.params.boundary));
   start.frame.time_s = 0;
   keep_sizes(start.frame.cells);
-  start.frame.interface = {};
+  start.frame.interface = start.frame.contacts = {};
   return start;
 }
 

@@ -54,6 +54,7 @@ inline void expect_same_frame(const Frame& a, const Frame& b) {
   expect_same_fields(a.cell_data, b.cell_data);
   expect_same_table(a.cells, b.cells);
   expect_same_table(a.interface, b.interface);
+  expect_same_table(a.contacts, b.contacts);
 }
 
 }  // namespace acinus::io::test

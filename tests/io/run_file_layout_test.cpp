@@ -149,6 +149,11 @@ TEST(RunFileLayout, EveryDatasetHasItsTypeShapeAndUnit) {
       {"interface/dcm_id", "i8", "1", 0, 0},
       {"interface/cbm_id", "i8", "1", 0, 0},
       {"interface/gap", "f8", "um", 0, 0},
+      {"contacts/frame_offset", "i8", "1", 0, 0},
+      {"contacts/a", "i8", "1", 0, 0},
+      {"contacts/b", "i8", "1", 0, 0},
+      {"contacts/area_a", "f8", "um^2", 0, 0},
+      {"contacts/force", "f8", "nN", 3, 0},
       {"series/time", "f8", "s", 0, 0},
       {"series/energy", "f8", "fJ", 0, 0},
       {"observables/time", "f8", "s", 0, 0},
@@ -186,7 +191,7 @@ TEST(RunFileLayout, HeadersAreWhatVtkCompares) {
   const Open file(folder / "run.vtkhdf");
   EXPECT_EQ(file.attribute("/VTKHDF", "Version"), (std::vector<std::int64_t>{2, 0}));
   EXPECT_EQ(file.attribute("/VTKHDF/Steps", "NSteps"), std::vector<std::int64_t>{3});
-  EXPECT_EQ(file.attribute("/", "schema_version"), (std::vector<std::int64_t>{1, 1}));
+  EXPECT_EQ(file.attribute("/", "schema_version"), (std::vector<std::int64_t>{1, 2}));
   const hid_t a = H5Aopen_by_name(file.id, "/VTKHDF", "Type", H5P_DEFAULT, H5P_DEFAULT),
               type = H5Aget_type(a);
   EXPECT_EQ(H5Tis_variable_str(type), 0);

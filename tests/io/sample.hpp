@@ -65,6 +65,15 @@ inline Frame make_frame(int k, int n_body, int n_sphere) {
     gap.value.push_back(-0.01 * (i + k));
   }
   f.interface = {{dcm, cbm}, {gap}};
+  IdColumn a{"a", {}}, b{"b", {}};
+  Column area{"area_a", "um^2", 1, {}}, pair_force{"force", "nN", 3, {}};
+  for (int i = 0; i + 1 < n_body; ++i) {
+    a.value.push_back(i);
+    b.value.push_back(i + 1);
+    area.value.push_back(i + 0.5 * k);
+    for (int c = 0; c < 3; ++c) pair_force.value.push_back(k - 0.1 * c);
+  }
+  f.contacts = {{a, b}, {area, pair_force}};
   return f;
 }
 

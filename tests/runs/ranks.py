@@ -24,14 +24,15 @@ SCENES = os.path.join(HERE, "..", "..", "runs", "scenes")
 GOLDEN = os.path.join(HERE, "..", "golden")
 
 CASES = {
-    "clump13": [os.path.join(SCENES, "clump13.json"), "--until", "20 min"],
+    "clump13": [os.path.join(SCENES, "clump13.json"), "--until", "20 min", "--set", "output.contacts=true"],
     "cells": [os.path.join(SCENES, "spheroid.json"), "--until-cells", "10"],
     "spheres": [os.path.join(SCENES, "spheroid_cbm.json"), "--until-cells", "300"],
-    "hybrid": [os.path.join(SCENES, "lobule_hybrid.json"), "--set", "start_up.growth_time=2 h", "--until", "10 min"],
+    "hybrid": [os.path.join(SCENES, "lobule_hybrid.json"), "--set", "start_up.growth_time=2 h", "--set",
+               "output.contacts=true", "--until", "10 min"],
     "substances": [os.path.join(GOLDEN, "substances.json"), "--until", "1 h"],
     "life": [os.path.join(GOLDEN, "hybrid_life.json")],
     "zoom": [os.path.join(GOLDEN, "moving_zoom.json")],
-    "maugis_hybrid": [os.path.join(GOLDEN, "maugis_hybrid.json"), "--until", "15 min"],
+    "maugis_hybrid": [os.path.join(GOLDEN, "maugis_hybrid.json"), "--until", "15 min", "--set", "output.contacts=true"],
     "nucleus": [os.path.join(SCENES, "narrow_gap_nucleus.json"), "--until", "5 min"],
     "patch": [os.path.join(SCENES, "patch_box.json"), "--until", "10 min"],
     "newton": [os.path.join(SCENES, "clump13.json"), "--until", "2 min", "--set", "time.integrator=newton"],

@@ -1,0 +1,143 @@
+#include "coupling/measure/contact_list.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "contact/cohesive.hpp"
+#include "dcm/contact/contact_loads.hpp"
+#include "dcm/contact/contact_points.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+using contact::Contact, contact::Partner;
+
+/// Areas of single contacts, on the same scale as CellMeasure::contact_area. Those of ghost cells
+/// are 0: only the owner of a cell knows what else its points touch.
+class ContactAreas {
+ public:
+  ContactAreas(const World& world, const Workspace& w, const std::vector<CellMeasure>& cells)
+      : options_(world.params.dcm_contact), w_(w), cells_(cells) {
+    for (std::size_t k = 0; k < w.dcm.body.size(); ++k) {
+      double whole = 0;
+      const std::size_t n = contact::n_points(w.dcm.body[k], options_.quadrature);
+      for (std::size_t p = 0; p < n; ++p) whole += point_area(k, static_cast<int>(p));
+      scale_.push_back(whole > 0 ? cells[k].area / whole : 0);
+    }
+  }
+
+  /// um^2 of side a.
+  double of_a(const Contact& k) const {
+    if (k.point == contact::kWhole) return w_.cbm.is_ghost(k.a) ? 0 : k.touching;
+    const auto body = static_cast<std::size_t>(k.a);
+    if (w_.dcm.is_ghost_body(body)) return 0;
+    if (dcm::is_triangle_contact(options_, k)) return of_triangle(body, k.point, k.touching);
+    if (k.partner != Partner::kSurface && k.partner != Partner::kMesh && k.only_pushes()) return 0;
+    return share_of(k) * of_point(body, k.point);
+  }
+
+  /// um^2 of side b.
+  double of_b(const Contact& k) const {
+    const bool triangles = dcm::is_triangle_contact(options_, k);
+    if (k.partner == Partner::kSphere) {
+      if (w_.cbm.is_ghost(k.b)) return 0;
+      return triangles || k.point == contact::kWhole ? k.touching
+                                                     : share_of(k) * point_area(k.a, k.point);
+    }
+    if (k.partner != Partner::kSurface || w_.dcm.is_ghost_body(k.b)) return 0;
+    // Points of b have contacts of their own.
+    return triangles ? of_triangle(k.b, k.triangle, k.touching) : 0;
+  }
+
+ private:
+  double point_area(std::size_t body, int point) const {
+    return dcm::point_area(*w_.dcm.body[body].topology, options_.quadrature, point,
+                           cells_[body].radius);
+  }
+  double share_of(const Contact& k) const {
+    return contact::contact_share(k.gap, options_.friction_range);
+  }
+  /// Area with which a point that touches several partners counts with all of them.
+  double of_point(std::size_t body, int point) const {
+    return scale_[body] * dcm::share_scale(w_.dcm.share[body][point]) * point_area(body, point);
+  }
+  double of_triangle(std::size_t body, int triangle, double touching) const {
+    const contact::SurfaceBody& b = w_.dcm.body[body];
+    const auto& corner = (*b.triangle)[triangle];
+    const Vec3 &x = b.node[corner[0]], &y = b.node[corner[1]], &z = b.node[corner[2]];
+    double area = 0;
+    for (int q = 0; q < 3; ++q) area += of_point(body, 3 * triangle + q);
+    return touching / (0.5 * (y - x).cross(z - x).norm()) * area;
+  }
+
+  const dcm::ContactParams& options_;
+  const Workspace& w_;
+  const std::vector<CellMeasure>& cells_;
+  std::vector<double> scale_;  ///< [body] present area over that of its points
+};
+
+}  // namespace
+
+CellContact& ContactSums::sum_of(const ContactForce& c) {
+  if (c.b == kNoCell) return sum_[{false, c.a, c.b, c.kind, c.index}];
+  return sum_[{true, std::min(c.a, c.b), std::max(c.a, c.b), {}, 0}];
+}
+
+void ContactSums::add(const ContactForce& c) {
+  if (c.b == kNoCell ? c.fades : !c.touching && !c.fades) return;
+  CellContact& sum = sum_of(c);
+  sum.force += c.a < c.b ? c.force : Vec3(-c.force);
+  sum.touching = sum.touching || c.touching;
+  if (c.b == kNoCell) sum.normal_force += c.force.dot(c.normal);
+}
+
+void ContactSums::add_areas(const ContactForce& c, double area_a, double area_b) {
+  if (c.a == c.b || (area_a <= 0 && area_b <= 0)) return;
+  CellContact& sum = sum_of(c);
+  sum.area_a += c.a < c.b ? area_a : area_b;
+  sum.area_b += c.a < c.b ? area_b : area_a;
+}
+
+std::vector<CellContact> ContactSums::list(const std::vector<CellMeasure>& cells) const {
+  std::vector<CellContact> list;
+  for (const auto& [key, sum] : sum_) {
+    CellContact& c = list.emplace_back(sum);
+    std::tie(c.a, c.b, c.partner, c.index) = std::tie(key.a, key.b, key.partner, key.index);
+    if (!key.pair) continue;
+    c.partner = cells[c.b].deformable ? Partner::kSurface : Partner::kSphere;
+    c.normal_force = c.force.dot((cells[c.a].center - cells[c.b].center).normalized());
+  }
+  return list;
+}
+
+std::vector<CellContact> list_contacts(const World& world, const Workspace& w,
+                                       const std::vector<CellMeasure>& cells) {
+  const ContactAreas areas(world, w, cells);
+  ContactSums sums;
+  visit_contacts(world, w, [&](const ContactForce& c) {
+    sums.add(c);
+    if (c.record != nullptr) sums.add_areas(c, areas.of_a(*c.record), areas.of_b(*c.record));
+  });
+  std::vector<CellContact> list = sums.list(cells);
+  const solve::Ownership& ownership = w.system.ownership;
+  if (ownership.is_whole()) return list;
+  // The owners of both cells have the same force, and each the area of its own side.
+  std::vector<CellContact> all;
+  ownership.ranks.gather<CellContact>(list, all);
+  const auto key = [](const CellContact& c) {
+    return std::tuple(c.b != kNoCell, c.a, c.b, c.partner, c.index);
+  };
+  std::ranges::stable_sort(all, {}, key);
+  list.clear();
+  for (const CellContact& c : all) {
+    if (list.empty() || key(list.back()) != key(c)) {
+      list.push_back(c);
+      continue;
+    }
+    list.back().area_a += c.area_a;
+    list.back().area_b += c.area_b;
+  }
+  return list;
+}
+
+}  // namespace acinus::coupling
