@@ -7,6 +7,7 @@
 #include "cbm/pair_kernel.hpp"
 #include "contact/jkr.hpp"
 #include "contact/neighbours.hpp"
+#include "contact/pair_adhesion.hpp"
 #include "contact/vessel_side.hpp"
 #include "core/parallel/threads.hpp"
 #include "geometry/box_pairs.hpp"
@@ -99,8 +100,7 @@ void compute_overlaps(const ContactInput& in, ContactWorkspace& work) {
 double largest_separation(const State& s, std::span<const Params> params,
                           std::span<const double> radius, const contact::Boundary& boundary) {
   if (s.n_cell() == 0) return 0;
-  double adhesion = boundary.vessels.material.adhesion;
-  for (const Params& p : params) adhesion = std::max(adhesion, p.adhesion);
+  double adhesion = std::max(boundary.vessels.material.adhesion, contact::largest_adhesion(params));
   contact::for_each_wall(boundary, [&](auto, auto, const auto& wall) {
     adhesion = std::max(adhesion, wall.material.adhesion);
   });

@@ -34,10 +34,10 @@ struct ContactInput {
   std::size_t vessel_row = contact::kAtRest;  ///< first row of the nodes of moving vessels
 };
 
-/// Constants of a cell type in the law between two spheres.
-struct TypeFactors {
-  double softness = 1;       ///< 1 - nu^2
-  double root_adhesion = 0;  ///< sqrt(W), nN/um to the power 1/2
+/// Constants of two cell types in the law between two spheres.
+struct TypePair {
+  double adhesion = 0;  ///< W, nN/um
+  double friction = 0;  ///< nN s/um^3
 };
 
 /// Scratch of the contact search. Cells are partitioned into one range per thread. A thread adds to
@@ -54,9 +54,9 @@ struct ContactWorkspace {
   RowVector<double> force;         ///< [n_row][3][lane] nN of all pairs; by: find_contacts
   std::vector<std::pair<int, int>> touching;  ///< new touching set, committed with an accepted step
   std::vector<std::vector<std::pair<int, int>>> touching_part;  ///< of other threads than the first
-  std::vector<TypeFactors> type_factors;  ///< [type]; written by: find_contacts
-  std::vector<double> type_friction;      ///< [type][type] nN s/um^3; written by: find_contacts
-  std::vector<double> contact_area;       ///< [n_cell] um^2, sum over all contacts
+  std::vector<double> type_softness;  ///< [type] 1 - nu^2; written by: find_contacts
+  std::vector<TypePair> type_pair;    ///< [type][type]; written by: find_contacts
+  std::vector<double> contact_area;   ///< [n_cell] um^2, sum over all contacts
   /// [n_cell] sum of the relative overlaps with cells and walls, without vessels and meshes;
   /// written by: compute_overlaps; the DCM-CBM interface adds its own. Empty: no law needs it.
   std::vector<double> overlap_sum;

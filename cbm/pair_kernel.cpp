@@ -56,14 +56,18 @@ void weaken(const double (&share)[kLanes], Batch& p) {
 
 void compute_type_factors(std::span<const Params> params, const ContactParams& options,
                           ContactWorkspace& work) {
-  work.type_factors.clear();
-  work.type_friction.clear();
+  work.type_softness.clear();
+  work.type_pair.clear();
+  const auto root = [&](const Params& p) {
+    return std::sqrt(options.adhesion_factor * p.adhesion);
+  };
   for (const Params& p : params) {
-    work.type_factors.push_back(
-        {1 - p.poisson * p.poisson, std::sqrt(options.adhesion_factor * p.adhesion)});
-    for (const Params& q : params)
-      work.type_friction.push_back(options.friction_factor *
-                                   std::sqrt(p.cell_friction * q.cell_friction));
+    work.type_softness.push_back(1 - p.poisson * p.poisson);
+    for (std::size_t q = 0; q < params.size(); ++q)
+      work.type_pair.push_back(
+          {p.adhesion_with.empty() ? root(p) * root(params[q])
+                                   : options.adhesion_factor * p.adhesion_with[q],
+           options.friction_factor * std::sqrt(p.cell_friction * params[q].cell_friction)});
   }
 }
 
@@ -107,10 +111,11 @@ class PairBatch {
       of_a = &face[n_][0];
       of_b = &face[n_][1];
     }
-    const TypeFactors &of_ta = work_.type_factors[ta], &of_tb = work_.type_factors[tb];
-    value.compliance[n_] = of_ta.softness / of_a->value + of_tb.softness / of_b->value;
-    value.adhesion[n_] = of_ta.root_adhesion * of_tb.root_adhesion;
-    friction_[n_] = work_.type_friction[ta * work_.type_factors.size() + tb];
+    const std::vector<double>& softness = work_.type_softness;
+    value.compliance[n_] = softness[ta] / of_a->value + softness[tb] / of_b->value;
+    const TypePair& types = work_.type_pair[ta * softness.size() + tb];
+    value.adhesion[n_] = types.adhesion;
+    friction_[n_] = types.friction;
     value.was_touching[n_] = was_touching({a, b}) ? 1 : 0;
     return ++n_ == kLanes;
   }
@@ -137,7 +142,7 @@ class PairBatch {
   /// Growth of the slope of a contact because the modulus of a side grows with its overlap, nN/um.
   /// dF/dE^ is (2/3) (overlap / E^) dF/d overlap, since F depends on overlap E^(2/3) alone.
   double by_modulus(std::size_t cell, const Modulus& m, std::size_t l) const {
-    const double softness = work_.type_factors[s_.type[cell]].softness;
+    const double softness = work_.type_softness[s_.type[cell]];
     const double by_own = 2.0 / 3 * std::max(value.overlap[l], 0.0) * value.stiffness[l] *
                           softness / (value.compliance[l] * m.value * m.value);
     return by_own * m.slope / (value.radius_a[l] + value.radius_b[l]);

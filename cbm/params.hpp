@@ -2,6 +2,7 @@
 /// Constants of one type of centre-based cell. Constant after load.
 
 #include <cstdint>
+#include <vector>
 
 #include "cbm/stiffness_law.hpp"
 #include "core/numbers/random.hpp"
@@ -26,7 +27,9 @@ struct Params {
   bool whole_medium_area =
       false;                ///< true: the medium acts on the whole surface, false: on its free part
   double diffusion = 1e-4;  ///< um^2/s
-  double adhesion = 0.01;   ///< nN/um
+  double adhesion = 0.01;   ///< nN/um, W of this type with itself
+  /// [type] nN/um, W with each type; empty: the geometric mean of both.
+  std::vector<double> adhesion_with;
   double vessel_friction = 0.5;  ///< nN s/um^3
   StiffnessLaw correction;
 };

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "core/vec.hpp"
 #include "dcm/contractile_ring.hpp"
@@ -48,7 +49,9 @@ struct Params {
   double viscosity = 0;          ///< nN s/um^2, Stokes drag 6 pi eta R spread over the surface
   double diffusion = 1e-4;       ///< um^2/s, random motility D
   double adhesion = 0.01;        ///< nN/um, W of this type with itself
-  double vessel_friction = 0.1;  ///< nN s/um^3
+  /// [type] nN/um, W with each type; empty: the geometric mean of both.
+  std::vector<double> adhesion_with;
+  double vessel_friction = 0.1;                ///< nN s/um^3
   double cortex_thickness = kCortexThickness;  ///< um; rims of daughters are rounded to it
   std::optional<Nucleus> nucleus;              ///< empty: none
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/cohesive.hpp"
+#include "contact/pair_adhesion.hpp"
 #include "core/parallel/threads.hpp"
 #include "dcm/contact/contact.hpp"
 #include "dcm/contact/contact_bodies.hpp"
@@ -36,7 +37,8 @@ PairLaw law_of(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
                          {in.cbm.cells.radius[sphere], in.cbm.state.young[sphere], b.poisson,
                           modulus[sphere], b.correction.corrects() ? &b.correction : nullptr},
                          k.depth());
-  return {{in.dcm.options.adhesion_factor * std::sqrt(a.adhesion * b.adhesion), under.stiffness,
+  return {{in.dcm.options.adhesion_factor * contact::pair_adhesion(a, b, in.cbm.state.type[sphere]),
+           under.stiffness,
            in.dcm.options.range_factor * dcm_work.body[body].topology->mean_rest_length *
                in.dcm.lanes.radius[lane]},
           k.gap < 0 ? under.slope * k.depth() : 0};
@@ -84,8 +86,9 @@ void find_triangle_pair(const InterfaceInput& in, const dcm::ContactWorkspace& d
   const std::size_t lane = dcm_work.lane_of_body[body];
   const Vec3 center = cbm::center_of(in.cbm.state, sphere);
   const double radius = in.cbm.cells.radius[sphere];
-  const double adhesion = std::sqrt(in.dcm.params[in.dcm.state.group[lane / kLanes].type].adhesion *
-                                    in.cbm.params[in.cbm.state.type[sphere]].adhesion);
+  const std::size_t type = in.cbm.state.type[sphere];
+  const double adhesion = contact::pair_adhesion(
+      in.dcm.params[in.dcm.state.group[lane / kLanes].type], in.cbm.params[type], type);
   const contact::MaugisLaw law = dcm::maugis_law(
       in.dcm.options,
       {in.dcm.options.adhesion_factor * adhesion, surface_modulus(in.cbm, cbm_work, sphere)});

@@ -33,6 +33,7 @@ Filling fill(const World& world, int type, const geometry::Topology& topology,
   p.nodal_friction = kFriction;
   p.series_friction = 0;
   p.nucleus.reset();
+  p.adhesion_with.clear();
   p.viscosity = p.diffusion = p.adhesion = p.vessel_friction = 0;
   small.params.dcm = {p};
   small.params.dcm_contact = world.params.dcm_contact;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/cohesive.hpp"
+#include "contact/pair_adhesion.hpp"
 #include "core/parallel/threads.hpp"
 #include "dcm/contact/contact_points.hpp"
 #include "dcm/contact/contact_sides.hpp"
@@ -36,9 +37,8 @@ struct Completion {
 
   std::size_t lane_of(int body) const { return work.lane_of_body[body]; }
   const contact::SurfaceBody& body(int k) const { return work.body[k]; }
-  const Params& params_of(int body) const {
-    return in.params[in.state.group[lane_of(body) / kLanes].type];
-  }
+  std::size_t type_of(int body) const { return in.state.group[lane_of(body) / kLanes].type; }
+  const Params& params_of(int body) const { return in.params[type_of(body)]; }
   double area(int k, int point) const {
     return point_area(*body(k).topology, in.options.quadrature, point, in.lanes.radius[lane_of(k)]);
   }
@@ -55,7 +55,7 @@ struct Completion {
       return {half, repulsion(in.options.repulsion), 0, std::min(0.0, k.gap - kSelfGap)};
     const double share = touching_share(in.options, work, k.a, k.point, k.gap);
     k.touching = half * share;
-    const double adhesion = std::sqrt(params_of(k.a).adhesion * params_of(k.b).adhesion);
+    const double adhesion = contact::pair_adhesion(params_of(k.a), params_of(k.b), type_of(k.b));
     const bool rubs = in.options.friction_form == FrictionForm::kSurface;
     return {half, cohesive(k.a, adhesion, in.options.repulsion),
             rubs ? in.options.friction_factor * share * in.options.cell_friction : 0, k.gap};

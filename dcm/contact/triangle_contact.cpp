@@ -8,6 +8,7 @@
 
 #include "contact/candidates.hpp"
 #include "contact/maugis_overlap.hpp"
+#include "contact/pair_adhesion.hpp"
 #include "contact/vessel_yield.hpp"
 #include "core/parallel/threads.hpp"
 #include "dcm/contact/contact_params.hpp"
@@ -59,8 +60,8 @@ void share_out(const contact::TrianglePart& part, Contact& k) {
   k.slope = part.slope / kPlaces;
 }
 
-double adhesion_of(const ContactInput& in, const ContactWorkspace& work, int body) {
-  return in.params[in.state.group[work.lane_of_body[body] / kLanes].type].adhesion;
+std::size_t type_of(const ContactInput& in, const ContactWorkspace& work, int body) {
+  return in.state.group[work.lane_of_body[body] / kLanes].type;
 }
 
 PartnerSurface surface_of(const ContactParams& c, const contact::Material& m) {
@@ -79,7 +80,8 @@ contact::MaugisLaw law_between(const ContactInput& in, const ContactWorkspace& w
     return maugis_law(in.options, surface_of(in.options, k - n < in.boundary.meshes.size()
                                                              ? in.boundary.meshes[k - n].material
                                                              : in.boundary.vessels.material));
-  const double adhesion = std::sqrt(adhesion_of(in, work, a) * adhesion_of(in, work, b));
+  const std::size_t type_a = type_of(in, work, a), type_b = type_of(in, work, b);
+  const double adhesion = contact::pair_adhesion(in.params[type_a], in.params[type_b], type_b);
   contact::MaugisLaw law = maugis_law(
       in.options, {in.options.adhesion_factor * adhesion, std::numeric_limits<double>::infinity()});
   law.farthest = reach - in.options.max_depth;  // triangle_reach
@@ -215,8 +217,8 @@ double maugis_reach(const contact::MaugisLaw& law, double max_depth) {
 }
 
 double triangle_reach(const ContactInput& in) {
-  double adhesion = in.boundary.vessels.material.adhesion;
-  for (const Params& p : in.params) adhesion = std::max(adhesion, p.adhesion);
+  double adhesion =
+      std::max(in.boundary.vessels.material.adhesion, contact::largest_adhesion(in.params));
   for (const auto& m : in.boundary.meshes) adhesion = std::max(adhesion, m.material.adhesion);
   contact::for_each_wall(in.boundary, [&](auto, auto, const auto& wall) {
     adhesion = std::max(adhesion, wall.material.adhesion);

@@ -1,5 +1,9 @@
 #include "runs/assemble/build_params.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include "runs/scene/apparatus/apparatus.hpp"
 
 namespace acinus::runs {
@@ -47,6 +51,31 @@ void set_zoom(const Scene& scene, coupling::ZoomParams& p) {
     p.mesh.push_back(&geometry::shared_icosphere(type.dcm.nodes));
 }
 
+/// Sets the adhesions of all pairs of types, if the scene gives any. Types in lysis have those of
+/// theirs, softened as geometric means are.
+void set_pair_adhesions(const Scene& scene, coupling::Params& p) {
+  if (std::ranges::all_of(scene.cell_types,
+                          [](const auto& t) { return t.second.adhesion_with.empty(); }))
+    return;
+  struct Source {
+    const CellType* type;
+    double root = 1;  ///< of its softening
+  };
+  std::vector<Source> source;  // [type], those of the scene first
+  for (const auto& [name, type] : scene.cell_types) source.push_back({&type});
+  source.resize(p.dcm.size());
+  for (std::size_t k = 0; k < scene.cell_types.size(); ++k)
+    if (const int soft = p.life.type[k].death.type; soft >= 0)
+      source[soft] = {source[k].type, std::sqrt(source[k].type->softening)};
+  for (std::size_t a = 0; a < source.size(); ++a) {
+    p.dcm[a].adhesion_with.clear();
+    for (const Source& b : source)
+      p.dcm[a].adhesion_with.push_back(source[a].root * b.root *
+                                       pair_adhesion(scene, *source[a].type, *b.type));
+    p.cbm[a].adhesion_with = p.dcm[a].adhesion_with;
+  }
+}
+
 void set_numerics(const Scene& scene, coupling::Numerics& n) {
   n = scene.numerics;
   // An explicit step's length is set by stability, not by what an error estimate asks for.
@@ -85,6 +114,7 @@ cbm::Params make_cbm_params(const Scene& scene, const CellType& type) {
 
 void set_params(const Scene& scene, coupling::Params& p) {
   set_contact(scene, p);
+  set_pair_adhesions(scene, p);
   p.start_up = scene.start_up;
   set_motility(scene, p.motility);
   set_zoom(scene, p.zoom);

@@ -111,7 +111,7 @@ PairOfCells pair_of(const Scene& scene) {
   const CellEntry &a = scene.cells.list[0], &b = scene.cells.list[1];
   const CellType &type_a = type_of(scene, a), &type_b = type_of(scene, b);
   const double ra = a.radius.value_or(type_a.radius), rb = b.radius.value_or(type_b.radius);
-  return {ra * rb / (ra + rb), std::sqrt(type_a.adhesion * type_b.adhesion)};
+  return {ra * rb / (ra + rb), pair_adhesion(scene, type_a, type_b)};
 }
 
 double vesicle_pull_off(const PairOfCells& pair) {

@@ -278,6 +278,18 @@ void describe_cell_meshes(Visitor& v, CellsBlock& b) {
   });
 }
 
+void describe_pair_adhesion(Visitor& v, PairAdhesion& b) {
+  v.text({.name = "type", .meaning = "name of the other cell type", .required = true}, b.type);
+  v.real({.name = "adhesion",
+          .meaning = "adhesion energy per area between the two types",
+          .dimension = kTension,
+          .unit = "J/m^2",
+          .range = kNotNegative,
+          .symbol = "W",
+          .required = true},
+         b.adhesion);
+}
+
 }  // namespace
 
 void describe_cell_type(Visitor& v, CellType& b) {
@@ -291,7 +303,8 @@ void describe_cell_type(Visitor& v, CellType& b) {
           .law_name = "radius_um"},
          b.radius);
   v.real({.name = "adhesion",
-          .meaning = "adhesion energy per area; a pair of types has the geometric mean",
+          .meaning = "adhesion energy per area of cells of this type; a pair of types has the "
+                     "geometric mean, unless adhesion_with says otherwise",
           .dimension = kTension,
           .unit = "J/m^2",
           .range = kNotNegative,
@@ -300,6 +313,11 @@ void describe_cell_type(Visitor& v, CellType& b) {
           .in_law = InLaw::kBoth,
           .law_name = "adhesion_nN_per_um"},
          b.adhesion);
+  blocks(v,
+         {.name = "adhesion_with",
+          .meaning = "adhesion energies with other types, each given at one of the two",
+          .item = "cell.adhesion_with"},
+         b.adhesion_with, describe_pair_adhesion);
   v.real({.name = "diffusion",
           .meaning = "diffusion coefficient of the random motion",
           .dimension = kDiffusion,

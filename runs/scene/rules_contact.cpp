@@ -1,7 +1,42 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/spelling.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "runs/scene/scene_rules.hpp"
 
 namespace acinus::runs {
+
+void check_pair_adhesions(const Scene& scene, Report& report) {
+  std::set<std::pair<std::string, std::string>> seen;
+  std::vector<std::string> names;
+  for (const auto& [name, type] : scene.cell_types) names.push_back(name);
+  for (const auto& [name, type] : scene.cell_types)
+    for (std::size_t k = 0; k < type.adhesion_with.size(); ++k) {
+      const std::string& other = type.adhesion_with[k].type;
+      const std::string pointer = fmt::format("/cell_types/{}/adhesion_with/{}/type", name, k),
+                        found = "\"" + other + "\"";
+      if (!scene.cell_types.contains(other))
+        report.add_relation(
+            {pointer, "/cell_types"}, found,
+            "unknown cell type. " + did_you_mean(nearest_name(other, names),
+                                                 fmt::format("Known: {}", fmt::join(names, ", "))));
+      else if (other == name)
+        report.add_relation({pointer}, found,
+                            fmt::format("is this type itself. Set /cell_types/{}/adhesion", name));
+      else if (!seen.insert(std::minmax(name, other)).second)
+        report.add_relation(
+            {pointer}, found,
+            "the adhesion of these two types is given twice. Give it at one of them");
+    }
+}
+
 void check_contact_law(const Scene& scene, Report& report) {
   if (scene.contact.law == dcm::ContactLaw::kCohesive) return;
   const std::string law = "\"" + name_of_choice(scene.contact.law) + "\"";

@@ -6,6 +6,7 @@
 /// that assemble/ derives from other keys are 0 where that is left to it ("auto").
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -61,9 +62,16 @@ struct CbmBlock : cbm::Params {
   CbmBlock() { young = 0; }
 };
 
+/// Adhesion energy with another cell type, in place of the geometric mean.
+struct PairAdhesion {
+  std::string type;
+  double adhesion = 0;  ///< nN/um (mJ/m^2)
+};
+
 struct CellType {
   double radius = 12;                          ///< um at rest
   double adhesion = dcm::Params{}.adhesion;    ///< nN/um (mJ/m^2), pair value = sqrt(Wa Wb)
+  std::vector<PairAdhesion> adhesion_with;     ///< given at one of the two types
   double diffusion = dcm::Params{}.diffusion;  ///< um^2/s, motility D
   coupling::CycleParams cycle;
   double softening = 1;  ///< lysis: factor on cortex_young, bulk_modulus and adhesion meanwhile
@@ -271,6 +279,21 @@ struct Scene {
 inline CellModel model_of(const Scene& scene) {
   const CellModel by_regions = scene.zoom.empty() ? CellModel::kDcm : CellModel::kZoom;
   return scene.model.value_or(scene.cells.model.value_or(by_regions));
+}
+
+/// Adhesion energy between two types of the scene, nN/um: that given for the pair, else the
+/// geometric mean.
+inline double pair_adhesion(const Scene& scene, const CellType& a, const CellType& b) {
+  const auto given = [&scene](const CellType& one, const CellType& other) -> const double* {
+    for (const PairAdhesion& pair : one.adhesion_with)
+      if (const auto found = scene.cell_types.find(pair.type);
+          found != scene.cell_types.end() && &found->second == &other)
+        return &pair.adhesion;
+    return nullptr;
+  };
+  if (const double* by_a = given(a, b)) return *by_a;
+  if (const double* by_b = given(b, a)) return *by_b;
+  return std::sqrt(a.adhesion * b.adhesion);
 }
 
 }  // namespace acinus::runs

@@ -283,6 +283,7 @@ void check_rules(const Scene& scene, Report& report, SceneRule of_experiment) {
   check_vessels(scene, report);
   check_flexible_vessels(scene, report);
   check_contact_law(scene, report);
+  check_pair_adhesions(scene, report);
   check_single_cell(scene, report);
   check_inside(scene, report);
   check_apparatus(scene, report);

@@ -30,6 +30,9 @@ void check_course(const Schedule& course, const std::string& pointer, Report& re
 /// Checks cortices that flow. @pre called by check_rules
 void check_single_cell(const Scene& scene, Report& report);
 
+/// Checks adhesions between cell types. @pre called by check_rules
+void check_pair_adhesions(const Scene& scene, Report& report);
+
 /// Checks the law of contact. @pre called by check_rules
 void check_contact_law(const Scene& scene, Report& report);
 

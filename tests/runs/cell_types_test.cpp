@@ -129,6 +129,28 @@ TEST(CellTypes, SofterOnesDifferInWhatSoftensAndInNothingElse) {
   EXPECT_EQ(after.medium_friction, before.medium_friction);
 }
 
+TEST(CellTypes, HaveAdhesionsOfPairsOfTypes) {
+  const Scene scene = parse_scene(R"({
+  "time": {"end": "1 h"},
+  "cell_types": {
+    "a": {"adhesion": "4e-6 J/m^2", "adhesion_with": [{"type": "c", "adhesion": "1e-6 J/m^2"}],
+          "death": {"mode": "lysis", "softening": 0.25}},
+    "b": {"adhesion": "9e-6 J/m^2"},
+    "c": {"adhesion": "1e-6 J/m^2"}},
+  "cells": {"source": "clump", "count": 2, "types": [{"type": "a"}]}})",
+                                  "scene.json");
+  const coupling::Params p = build_world(scene, Ranks::serial()).world.params;
+  ASSERT_EQ(p.dcm.size(), 4u);  // the last: "a" in lysis
+  const double expected[4][4] = {{4, 6, 1, 2}, {6, 9, 3, 3}, {1, 3, 1, 0.5}, {2, 3, 0.5, 1}};
+  for (std::size_t a = 0; a < 4; ++a)
+    for (std::size_t b = 0; b < 4; ++b) {
+      EXPECT_NEAR(1e3 * p.dcm[a].adhesion_with.at(b), expected[a][b], 1e-12) << a << b;
+      EXPECT_EQ(p.cbm[a].adhesion_with.at(b), p.dcm[a].adhesion_with[b]);
+    }
+  const Scene plain = make_scene(R"("source": "clump", "count": 2, "types": [{"type": "large"}])");
+  EXPECT_TRUE(build_world(plain, Ranks::serial()).world.params.dcm[0].adhesion_with.empty());
+}
+
 TEST(CellTypes, LawsDependOnTheConstantsOfEveryTerm) {
   const Scene scene = make_scene(R"("source": "clump", "count": 2, "types": [{"type": "large"}])");
   const CellType& type = scene.cell_types.at("large");

@@ -38,17 +38,18 @@ coupling::Params params_of(const std::vector<std::string>& set = {}) {
 
 auto fields(const dcm::Params& p) {
   const auto& [spring, bending, fold, area, local_area, tension, contraction, bulk, nodal, across,
-               series, medium, viscosity, diffusion, adhesion, vessel, thickness, nucleus] = p;
+               series, medium, viscosity, diffusion, adhesion, with, vessel, thickness, nucleus] =
+      p;
   return std::tuple(spring, bending, fold, area, local_area, tension, contraction.has_value(), bulk,
-                    nodal, across, series, medium, viscosity, diffusion, adhesion, vessel,
+                    nodal, across, series, medium, viscosity, diffusion, adhesion, with, vessel,
                     thickness, nucleus.has_value());
 }
 
 auto fields(const cbm::Params& p) {
   const auto& [young, spread, poisson, friction, medium, viscosity, whole, diffusion, adhesion,
-               vessel, correction] = p;
+               with, vessel, correction] = p;
   return std::tuple(young, spread, poisson, friction, medium, viscosity, whole, diffusion, adhesion,
-                    vessel, correction.corrects());
+                    with, vessel, correction.corrects());
 }
 
 auto fields(const dcm::ContactParams& p) {
@@ -231,7 +232,7 @@ TEST(Defaults, OfALobuleAreThoseOfTheGenerator) {
 TEST(Defaults, ACellWithoutTermsHasNone) {
   const dcm::Params p = dcm::params_without_terms();
   EXPECT_EQ(fields(p), std::tuple(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, false, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0,
-                                  0.0, 0.0, 0.0, 0.0, false));
+                                  0.0, 0.0, std::vector<double>{}, 0.0, 0.0, false));
 }
 
 }  // namespace

@@ -172,7 +172,8 @@ TEST(Explain, ABlockListsItsKeysWithDefaultAndMeaning) {
   EXPECT_CONTAINS(walls, "    normal    [0, 0, 1]                 direction to the side");
   EXPECT_CONTAINS(walls, "    mirror    (required)                true: a symmetry plane");
   EXPECT_CONTAINS(walls, "Poisson ratio of the wall (only with mirror = false)\n");
-  EXPECT_CONTAINS(explain_key("cell_types"), "\n    cycle       (block)           growth to twice");
+  EXPECT_CONTAINS(explain_key("cell_types"),
+                  "\n    cycle          (block)           growth to twice");
   EXPECT_CONTAINS(explain_key("cell.dcm"), "\n    nodes                  162 ");
   EXPECT_EQ(explain_key("wall.mirror").find("keys"), std::string::npos) << "no block";
 }

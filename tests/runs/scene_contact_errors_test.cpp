@@ -36,6 +36,28 @@ TEST(SceneContactErrors, MaugisDugdaleActsBetweenTriangles) {
             "Remove it");
 }
 
+TEST(SceneContactErrors, AdhesionsOfPairsNameAnotherTypeOnce) {
+  const auto types = [](const std::string& of_a, const std::string& of_b) {
+    return R"({"time": {"end": "1 h"}, "cell_types": {"a": {"adhesion_with": [)" + of_a +
+           R"(]}, "b": {"adhesion_with": [)" + of_b +
+           R"(]}}, "cells": {"source": "list", "list": [)"
+           R"({"position": ["0 um", "0 um", "0 um"], "type": "a"}]}})";
+  };
+  const std::string with_a = R"({"type": "a", "adhesion": "1e-6 J/m^2"})",
+                    with_b = R"({"type": "b", "adhesion": "1e-6 J/m^2"})",
+                    with_bb = R"({"type": "bb", "adhesion": "1e-6 J/m^2"})";
+  EXPECT_EQ(failure(types(with_b, "")), "");
+  EXPECT_CONTAINS(failure(types(with_a, "")),
+                  "/cell_types/a/adhesion_with/0/type = \"a\": is this type itself. Set "
+                  "/cell_types/a/adhesion");
+  EXPECT_CONTAINS(failure(types(with_b, with_a)),
+                  "/cell_types/b/adhesion_with/0/type = \"a\": the adhesion of these two types is "
+                  "given twice. Give it at one of them");
+  EXPECT_CONTAINS(failure(types(with_b + ", " + with_b, "")), "is given twice");
+  EXPECT_CONTAINS(failure(types(with_bb, "")), "unknown cell type. Known: a, b");
+  EXPECT_CONTAINS(failure(types(R"({"type": "b"})", "")), "adhesion");
+}
+
 TEST(SceneVesselErrors, FlexibleVesselsNeedWhatTheyGoWith) {
   const std::string lobule = R"("lobule": {}, "vessels": {"flexible": true})";
   const std::string start = "/vessels/flexible = true: ";

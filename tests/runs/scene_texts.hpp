@@ -33,6 +33,7 @@ inline constexpr const char* kFull = R"({
   "start_up": {"enabled": true, "initial_radius": "3 um", "growth_time": "1 h"},
   "cell_types": {
     "old": {"radius": "11.3 um", "adhesion": "2.5e-5 J/m^2",
+            "adhesion_with": [{"type": "young", "adhesion": "4e-6 J/m^2"}],
             "dcm": {"nodes": 642, "cortex_young": "0.9 kPa", "nodal_friction_across": 0,
                     "cortex_tension": "1e-4 N/m", "nucleus": {"size": 0.4},
                     "contraction": {"ring": 0.5, "course": [{"time": "1 s", "factor": 2}]}},
