@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <span>
 #include <utility>
@@ -9,6 +11,7 @@
 #include "core/error.hpp"
 #include "io/disk.hpp"
 #include "io/hdf5.hpp"
+#include "io/inside.hpp"
 
 namespace acinus::io {
 namespace {
@@ -74,6 +77,43 @@ void FieldFiles::write_series() const {
     text += fmt::format("{}\n    {{ \"name\": \"{}/{}\", \"time\": {} }}", k > 0 ? "," : "",
                         kFolder, frame_name(k), times_[k]);
   write_text_file((fs::path(folder_) / kSeries).string(), text + "\n  ]\n}\n");
+}
+
+std::optional<FieldFrame> read_fields(const std::string& folder, std::size_t number) {
+  const std::string name =
+      fmt::format("{}/{}", FieldFiles::kFolder, FieldFiles::frame_name(number));
+  if (!is_file_inside(folder, name)) return std::nullopt;
+  const std::string path = (fs::path(folder) / name).string();
+  const h5::File file = h5::File::open(path, h5::Access::kRead);
+  const auto sound = [&](bool is_sound) {
+    check(is_sound, path + ": is damaged or was not written by acinus.", Exit::kFileError);
+  };
+  const auto numbers = [&](const char* object, const char* attribute, std::size_t n) {
+    std::vector<double> value = file.read_numbers(object, attribute);
+    sound(value.size() == n &&
+          std::ranges::all_of(value, [](double x) { return std::isfinite(x); }));
+    return value;
+  };
+  FieldFrame frame;
+  frame.time_s = numbers("/", "time_s", 1)[0];
+  const std::vector<double> origin = numbers("/VTKHDF", "Origin", 3);
+  const std::vector<double> spacing = numbers("/VTKHDF", "Spacing", 3);
+  const std::vector<std::int64_t> extent = file.read_attribute("/VTKHDF", "WholeExtent");
+  sound(extent.size() == 6);
+  for (int axis = 0; axis < 3; ++axis) {
+    constexpr std::int64_t kMost = 1'000'000;
+    const std::int64_t last = extent[2 * axis + 1];
+    sound(extent[2 * axis] == 0 && last >= 0 && last < kMost && spacing[axis] > 0);
+    frame.n[axis] = static_cast<int>(last) + 1;
+    frame.spacing[axis] = spacing[axis];
+    frame.origin[axis] = origin[axis] - 0.5 * spacing[axis];
+  }
+  for (const std::string& field : file.members("/VTKHDF/PointData")) {
+    const std::string at = "/VTKHDF/PointData/" + field;
+    frame.field.push_back({field, file.read_text_attribute(at, "unit"),
+                           file.read_volume(at, {frame.n[2], frame.n[1], frame.n[0]})});
+  }
+  return frame;
 }
 
 }  // namespace acinus::io

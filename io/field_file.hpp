@@ -4,6 +4,8 @@
 /// which lists them with their times for ParaView.
 
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,5 +47,11 @@ class FieldFiles {
   std::vector<double> times_;
   bool compress_;
 };
+
+/// Reads the fields of a frame.
+/// @param folder  of the run; links in it are not followed
+/// @return nothing if the frame has no file
+/// @throws Error(kFileError) for a file that is damaged
+std::optional<FieldFrame> read_fields(const std::string& folder, std::size_t number);
 
 }  // namespace acinus::io

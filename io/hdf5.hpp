@@ -111,6 +111,12 @@ class File {
   /// Writes a three-dimensional dataset once, slowest axis first, with checksums.
   void write_volume(const std::string& name, const std::array<std::int64_t, 3>& extent,
                     std::span<const float> value, bool filtered);
+  /// Reads an attribute of double precision.
+  std::vector<double> read_numbers(const std::string& object, const std::string& name) const;
+  /// Reads such a dataset.
+  /// @param extent  that it has to have
+  std::vector<float> read_volume(const std::string& name,
+                                 const std::array<std::int64_t, 3>& extent) const;
   void write_hash(const std::string& object, const std::string& name, std::uint64_t value);
   std::vector<std::int64_t> read_attribute(const std::string& object,
                                            const std::string& name) const;

@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
 #include "core/error.hpp"
 #include "io/hdf5.hpp"
+#include "io/hdf5_form.hpp"
 
 namespace acinus::io::h5 {
 
@@ -40,6 +43,34 @@ void File::write_numbers(const std::string& object, const std::string& name,
       H5Aclose);
   if (!attribute.valid() || H5Awrite(attribute.id(), H5T_NATIVE_DOUBLE, value.data()) < 0)
     fail_here("write attribute " + name + " of " + object);
+}
+
+std::vector<double> File::read_numbers(const std::string& object, const std::string& name) const {
+  constexpr double kMost = 64;
+  const Handle attribute = open_attribute(object, name);
+  const Form form = form_of_attribute(attribute.id());
+  if (form.type != H5T_FLOAT || form.width != sizeof(double) || form.n_value() > kMost)
+    refuse(fmt::format("attribute {} of {} holds {}, where a few numbers are expected", name,
+                       object, describe(form)));
+  std::vector<double> value(static_cast<std::size_t>(form.n_value()));
+  if (!value.empty() && H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, value.data()) < 0)
+    fail_here("read attribute " + name + " of " + object);
+  return value;
+}
+
+std::vector<float> File::read_volume(const std::string& name,
+                                     const std::array<std::int64_t, 3>& extent) const {
+  const Handle dataset = open_dataset(name);
+  const Form form = form_of_dataset(dataset.id());
+  if (form.type != H5T_FLOAT || form.width != sizeof(float) ||
+      !std::ranges::equal(form.extent, extent))
+    refuse(fmt::format("dataset {} holds {}, where {} x {} x {} numbers are expected", name,
+                       describe(form), extent[0], extent[1], extent[2]));
+  check_storage(dataset, name, form.n_value() * sizeof(float));
+  std::vector<float> value(static_cast<std::size_t>(form.n_value()));
+  if (H5Dread(dataset.id(), H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.data()) < 0)
+    fail_here("read dataset " + name);
+  return value;
 }
 
 }  // namespace acinus::io::h5

@@ -1,5 +1,7 @@
 #include "service/report/frames.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -115,13 +117,32 @@ void add_frame(PackedRun& out, const io::Frame& f, int number) {
   }
 }
 
+/// Share of the bytes of a page that fields may take, and bytes that one of their values takes at
+/// most: the byte itself in base64.
+constexpr double kShareOfFields = 0.25, kBytesPerValue = 4.0 / 3;
+
+/// Adds the fields of substances to the last frame.
+void add_fields(PackedRun& out, RunRecord& run, const FrameLimits& limits, int n_frame) {
+  PackedFrame& frame = out.frame.back();
+  const std::optional<io::FieldFrame> fields = read_fields(run, frame.number, frame.time_s);
+  if (!fields) return;
+  if (!out.grid.exists()) {
+    const double most =
+        kShareOfFields * static_cast<double>(limits.bytes) / (kBytesPerValue * n_frame);
+    out.grid = make_packed_grid(*fields, static_cast<std::size_t>(most));
+  }
+  if (out.grid.exists())
+    attempt(run, fmt::format("fields of frame {}", frame.number),
+            [&] { frame.fields = pack_fields(out.grid, *fields); });
+}
+
 }  // namespace
 
 std::size_t PackedRun::bytes() const {
   std::size_t sum = 0;
   for (const PackedMesh& m : mesh) sum += m.chunk.size();
   for (const PackedStill& s : still) sum += s.chunk.size();
-  for (const PackedFrame& f : frame) sum += f.chunk.size();
+  for (const PackedFrame& f : frame) sum += f.chunk.size() + f.fields.size();
   return sum;
 }
 
@@ -136,7 +157,10 @@ PackedRun pack_frames(RunRecord& run, const FrameLimits& limits) {
   while (n > 0) {
     PackedRun packed;
     for (const int number : choose_evenly(run.n_frame(), n)) {
-      if (const std::optional<io::Frame> f = read_frame(run, number)) add_frame(packed, *f, number);
+      if (const std::optional<io::Frame> f = read_frame(run, number)) {
+        add_frame(packed, *f, number);
+        add_fields(packed, run, limits, n);
+      }
       if (n > 1 && packed.bytes() > limits.bytes) break;
     }
     const std::size_t bytes = packed.bytes();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "service/report/packed_fields.hpp"
 #include "service/report/run_record.hpp"
 
 namespace acinus::service {
@@ -34,7 +35,8 @@ struct PackedFrame {
   int number = 0;                   ///< in the run file
   std::size_t mesh = 0, still = 0;  ///< indices into PackedRun
   std::size_t spheres = 0, cells = 0;
-  std::string chunk;  ///< quantised x, y, z of nodes and spheres, radii; sphere ids; cell table
+  std::string chunk;   ///< quantised x, y, z of nodes and spheres, radii; sphere ids; cell table
+  std::string fields;  ///< of substances (pack_fields); "": none
 };
 
 /// Contacts between deformable cells and spheres in one frame.
@@ -51,6 +53,7 @@ struct PackedRun {
   std::vector<InterfaceSample> interface;
   std::vector<std::string> id_column, column;  ///< columns of the cell table in the frames' chunks
   std::map<std::string, std::string> unit;     ///< by column
+  PackedGrid grid;                             ///< of the fields of substances
   std::size_t bytes() const;
 };
 

@@ -24,6 +24,32 @@ void append_float(std::string& bytes, float value) {
   for (int k = 0; k < 4; ++k) bytes += static_cast<char>((bits >> (8 * k)) & 0xff);
 }
 
+/// Appends minimum and maximum of the finite values.
+/// @return levels from 0 to `steps` between them; steps + 1 for values that are not finite
+std::vector<std::uint32_t> levels_between_extremes(std::string& bytes,
+                                                   std::span<const double> value, int steps) {
+  float low = 0, high = 0;
+  bool first = true;
+  for (const double v : value) {
+    if (!std::isfinite(v)) continue;
+    const auto f = static_cast<float>(v);
+    low = first ? f : std::min(low, f);
+    high = first ? f : std::max(high, f);
+    first = false;
+  }
+  append_float(bytes, low);
+  append_float(bytes, high);
+  const double span = static_cast<double>(high) - low;
+  std::vector<std::uint32_t> level;
+  level.reserve(value.size());
+  for (const double v : value) {
+    const double share = span > 0 ? std::clamp((v - low) / span, 0.0, 1.0) : 0;
+    level.push_back(std::isfinite(v) ? static_cast<std::uint32_t>(std::lround(share * steps))
+                                     : static_cast<std::uint32_t>(steps) + 1U);
+  }
+  return level;
+}
+
 std::string encode_base64(std::string_view bytes) {
   constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -54,27 +80,16 @@ void append_integers(std::string& bytes, std::span<const std::int64_t> value) {
 }
 
 void append_quantised(std::string& bytes, std::span<const double> value) {
-  float low = 0, high = 0;
-  bool first = true;
-  for (const double v : value) {
-    if (!std::isfinite(v)) continue;
-    const auto f = static_cast<float>(v);
-    low = first ? f : std::min(low, f);
-    high = first ? f : std::max(high, f);
-    first = false;
+  append_planes(bytes, levels_between_extremes(bytes, value, kQuantisedSteps), 2);
+}
+
+void append_levels(std::string& bytes, std::span<const double> value) {
+  constexpr int kSteps = 254;
+  std::uint32_t before = 0;
+  for (const std::uint32_t level : levels_between_extremes(bytes, value, kSteps)) {
+    bytes += static_cast<char>((level - before) & 0xff);
+    before = level;
   }
-  append_float(bytes, low);
-  append_float(bytes, high);
-  const double span = static_cast<double>(high) - low;
-  std::vector<std::uint32_t> level;
-  level.reserve(value.size());
-  for (const double v : value) {
-    const double share = span > 0 ? std::clamp((v - low) / span, 0.0, 1.0) : 0;
-    level.push_back(std::isfinite(v)
-                        ? static_cast<std::uint32_t>(std::lround(share * kQuantisedSteps))
-                        : kQuantisedSteps + 1U);
-  }
-  append_planes(bytes, level, 2);
 }
 
 std::string encode_chunk(std::string_view bytes) {

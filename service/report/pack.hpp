@@ -20,6 +20,10 @@ void append_integers(std::string& bytes, std::span<const std::int64_t> value);
 /// of (maximum - minimum) / kQuantisedSteps, plus float rounding of the two.
 void append_quantised(std::string& bytes, std::span<const double> value);
 
+/// Appends minimum and maximum (float), then differences of consecutive levels between them, a byte
+/// each, modulo 256. Level 255 stands for NaN. Error: at most half of (maximum - minimum) / 254.
+void append_levels(std::string& bytes, std::span<const double> value);
+
 /// Compresses with zlib (RFC 1950) and encodes as base64.
 std::string encode_chunk(std::string_view bytes);
 

@@ -127,6 +127,19 @@ OrderedJson list_results(const OrderedJson& summary) {
   return list;
 }
 
+OrderedJson describe_grid(const PackedGrid& grid) {
+  const auto three = [](const Vec3& v) {
+    return OrderedJson{short_number(v.x()), short_number(v.y()), short_number(v.z())};
+  };
+  return {{"n", grid.n},
+          {"voxels", grid.n_voxel},
+          {"low", three(grid.low)},
+          {"size", three(grid.size)},
+          {"spacing", three(grid.spacing)},
+          {"names", grid.name},
+          {"units", grid.unit}};
+}
+
 }  // namespace
 
 OrderedJson describe_frames(const PackedRun& packed, int in_file) {
@@ -149,6 +162,10 @@ OrderedJson describe_frames(const PackedRun& packed, int in_file) {
                          {"spheres", f.spheres},
                          {"cells", f.cells},
                          {"chunk", f.chunk}});
+  if (!packed.grid.exists()) return j;
+  j["grid"] = describe_grid(packed.grid);
+  for (std::size_t k = 0; k < packed.frame.size(); ++k)
+    if (!packed.frame[k].fields.empty()) j["list"][k]["fields"] = packed.frame[k].fields;
   return j;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "core/error.hpp"
@@ -10,13 +11,9 @@
 #include "runs/session/run_folder.hpp"
 
 namespace acinus::service {
-namespace {
 namespace fs = std::filesystem;
 
-/// Runs a read operation and records its failure.
-/// @return true if it succeeded
-template <class Read>
-bool attempt(RunRecord& run, const std::string& what, Read read) {
+bool attempt(RunRecord& run, const std::string& what, const std::function<void()>& read) {
   try {
     read();
     return true;
@@ -27,8 +24,6 @@ bool attempt(RunRecord& run, const std::string& what, Read read) {
     return false;
   }
 }
-
-}  // namespace
 
 RunRecord read_run_record(const std::string& folder) {
   RunRecord run;
@@ -75,6 +70,20 @@ std::optional<io::Frame> read_frame(RunRecord& run, int frame) {
 std::optional<io::Table> read_cell_table(RunRecord& run, int frame) {
   std::optional<io::Table> out;
   attempt(run, fmt::format("frame {}", frame), [&] { out = run.reader->cells(frame); });
+  return out;
+}
+
+std::optional<io::FieldFrame> read_fields(RunRecord& run, int frame, double time_s) {
+  constexpr double kSameTime = 1e-6;  // s
+  std::optional<io::FieldFrame> out;
+  attempt(run, fmt::format("fields of frame {}", frame), [&] {
+    out = io::read_fields(run.folder, static_cast<std::size_t>(frame));
+    if (!out || std::abs(out->time_s - time_s) <= kSameTime) return;
+    const double other = out->time_s;
+    out.reset();
+    throw Error(fmt::format("they are of t = {} s, the frame of {} s", other, time_s),
+                Exit::kFileError);
+  });
   return out;
 }
 

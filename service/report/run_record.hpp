@@ -1,11 +1,13 @@
 #pragma once
 /// Readable content of a run folder, also of a run in progress, killed or damaged.
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "io/field_file.hpp"
 #include "io/run_reader.hpp"
 
 namespace acinus::service {
@@ -31,6 +33,14 @@ RunRecord read_run_record(const std::string& folder);
 /// Reads a frame, or only its cell table; empty, with a line in `damage`, if it is unreadable.
 std::optional<io::Frame> read_frame(RunRecord& run, int frame);
 std::optional<io::Table> read_cell_table(RunRecord& run, int frame);
+
+/// Reads the fields of substances of a frame; empty if it has none, and with a line in `damage` if
+/// they are unreadable or of another time.
+std::optional<io::FieldFrame> read_fields(RunRecord& run, int frame, double time_s);
+
+/// Runs a read operation and records its failure in `damage`, once.
+/// @return true if it succeeded
+bool attempt(RunRecord& run, const std::string& what, const std::function<void()>& read);
 
 /// Column of a table by name; empty if there is none.
 std::vector<double> table_column(const io::Table& table, const std::string& name);

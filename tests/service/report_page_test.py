@@ -119,6 +119,36 @@ def operate_viewer(browser):
     pick_a_cell(browser)
 
 
+def operate_fields(browser):
+    """The slice of a field changes with time, axis and place of the cut, has its unit, and goes when the cut does."""
+    if browser.run("document.querySelector('#slice') == null"):
+        return
+    [_, name, *_] = browser.run("[...document.querySelector('#slice').options].map((o) => o.value)")
+    set_value(browser, "#slice", name, "change")
+    assert browser.run("document.querySelector('#cut').value") == "y", "a slice makes no cut"
+    legend = browser.run("document.querySelector('#slice').parentElement.querySelector('.legend').textContent")
+    assert legend.endswith("mmHg"), f"no unit beside the colour bar: {legend}"
+    seen = {canvas(browser)}
+    for selector, value, event in ((".time input", "0", "input"), ("#cut", "x", "change"), ("[aria-label^=Position]", "0.2", "input")):
+        set_value(browser, selector, value, event)
+        assert canvas(browser) not in seen, f"{selector} does not change the slice"
+        seen.add(canvas(browser))
+    # Colours at the middle of the slice are those of the value there.
+    wrong = browser.run("""(() => {
+      const [m] = window.acinusViewer.models, { grid, mesh } = m.slice;
+      if (!mesh.visible) return "no slice";
+      const p = mesh.geometry.getAttribute("position").array, at = -m.plane.constant * m.plane.normal.x;
+      if ([0, 3, 6, 9].some((k) => Math.abs(p[k] - at) > 1e-3)) return "not in the plane of the cut";
+      const { width, height } = mesh.material.map.image;
+      return width === grid.n[1] && height === grid.n[2] ? "" : `${width} x ${height} values`;
+    })()""")
+    assert not wrong, wrong
+    set_value(browser, "#cut", "off", "change")
+    assert browser.run("document.querySelector('#slice').value") == "", "the slice stays without a cut"
+    set_value(browser, ".time input", browser.run("document.querySelector('.time input').max"), "input")
+    click(browser, ".reset")
+
+
 def pick_a_cell(browser):
     box = browser.run("(() => { window.scrollTo(0, 0); const b = document.querySelector('.stage canvas').getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()")
     views = int(browser.run("document.querySelector('.stage').dataset.views"))
@@ -176,6 +206,7 @@ def try_page(browser, page, keep):
     browser.call("Emulation.setDeviceMetricsOverride", width=1400, height=1000, deviceScaleFactor=1, mobile=False)
     seconds = load(browser, page)
     if browser.run("document.querySelector('.stage') != null"):
+        operate_fields(browser)
         operate_viewer(browser)
         browser.picture(keep and f"{keep}/{name}_picked.png")
     operate_rest(browser)
@@ -197,9 +228,13 @@ def make_pages(acinus, folder):
                     "--threads", "1", "--out", run, "--quiet", "--resume"], check=True)
     other = os.path.join(folder, "other.run")
     subprocess.run([acinus, "run", "two_cells", "--until", "10 min", "--threads", "1", "--out", other, "--quiet"], check=True)
-    pages = [os.path.join(folder, name) for name in ("one.html", "two.html")]
+    starving = os.path.join(folder, "starving.run")
+    subprocess.run([acinus, "run", "spheroid_oxygen", "--set", "cells.count=60", "--set", "output.every=10 min", "--until", "20 min", "--threads", "1",
+                    "--out", starving, "--quiet"], check=True)
+    pages = [os.path.join(folder, name) for name in ("one.html", "two.html", "fields.html")]
     subprocess.run([acinus, "report", run, "--out", pages[0], "--quiet"], check=True)
     subprocess.run([acinus, "report", run, other, "--out", pages[1], "--quiet"], check=True)
+    subprocess.run([acinus, "report", starving, "--out", pages[2], "--quiet"], check=True)
     return pages
 
 

@@ -1,4 +1,5 @@
 // Fields of cells and their colours.
+import { nice } from "./text.js";
 
 // viridis, sampled; magnitudes stay readable for colour-blind eyes and in print.
 const VIRIDIS = [
@@ -44,7 +45,18 @@ export const FIELDS = {
   leader: { label: "Leading cells", classes: ["other cell", "leading cell"] },
 };
 
+// Adds the concentrations of substances, which have the names of a scene.
+function addSubstances(frames) {
+  for (const column of frames.columns) {
+    const [, kind, name] = column.match(/^(concentration|exchange)_(.+)$/) ?? [];
+    if (!kind || FIELDS[column]) continue;
+    const label = kind === "exchange" ? `Secretion minus uptake: ${name}` : `Concentration: ${name}`;
+    FIELDS[column] = { label, unit: nice(frames.units[column] ?? "") };
+  }
+}
+
 export function availableFields(frames) {
+  addSubstances(frames);
   const has = new Set([...frames.id_columns, ...frames.columns]);
   return Object.keys(FIELDS).filter((name) => {
     if (name === "model") return has.has("kind");
@@ -71,13 +83,18 @@ export function rangeOf(name, frames) {
   return high > low ? [low, high] : [low - 0.5 * (Math.abs(low) || 1), low + 0.5 * (Math.abs(low) || 1)];
 }
 
+export function magnitude(value, [low, high]) {
+  const share = high > low ? (value - low) / (high - low) : 0.5;
+  const x = Math.min(1, Math.max(0, share)) * (VIRIDIS.length - 1);
+  const k = Math.min(VIRIDIS.length - 2, Math.floor(x));
+  return VIRIDIS[k].map((c, a) => (c + (x - k) * (VIRIDIS[k + 1][a] - c)) / 255);
+}
+
 export function colourOf(name, value, [low, high]) {
   if (!Number.isFinite(value)) return [0.6, 0.6, 0.6];
   if (FIELDS[name].each) return colourOfCell(value);
   if (FIELDS[name].classes) return CLASSES[((value % CLASSES.length) + CLASSES.length) % CLASSES.length].map((c) => c / 255);
-  const x = Math.min(1, Math.max(0, (value - low) / (high - low))) * (VIRIDIS.length - 1);
-  const k = Math.min(VIRIDIS.length - 2, Math.floor(x));
-  return VIRIDIS[k].map((c, a) => (c + (x - k) * (VIRIDIS[k + 1][a] - c)) / 255);
+  return magnitude(value, [low, high]);
 }
 
 export const gradient = () => `linear-gradient(to right, ${VIRIDIS.map((c) => `rgb(${c})`).join(", ")})`;

@@ -42,6 +42,21 @@ class Reader {
     return out;
   }
 
+  // Numbers of append_levels(): 255 stands for a number that does not exist.
+  levels(n) {
+    const out = new Float32Array(n);
+    const low = this.view.getFloat32(this.at, true);
+    const high = this.view.getFloat32(this.at + 4, true);
+    const p = this.at + 8;
+    let level = 0;
+    for (let k = 0; k < n; ++k) {
+      level = (level + this.bytes[p + k]) & 255;
+      out[k] = level === 255 ? NaN : low + ((high - low) * level) / 254;
+    }
+    this.at += 8 + n;
+    return out;
+  }
+
   // x, y, z of n points, one point after the other.
   points(n) {
     const axes = [this.quantised(n), this.quantised(n), this.quantised(n)];
@@ -60,6 +75,12 @@ function once(make) {
   };
 }
 
+// Fields of substances by name, x fastest.
+async function fieldsOf({ n, names }, chunk) {
+  const r = new Reader(await inflate(chunk));
+  return Object.fromEntries(names.map((name) => [name, r.levels(n[0] * n[1] * n[2])]));
+}
+
 // Frames of a run, unpacked when they are first asked for.
 export function openFrames(frames) {
   const mesh = once(async (k) => {
@@ -74,7 +95,7 @@ export function openFrames(frames) {
   });
   const frame = once(async (k) => {
     const f = frames.list[k];
-    const [m, s, bytes] = await Promise.all([mesh(f.mesh), still(f.still), inflate(f.chunk)]);
+    const [m, s, bytes, fields] = await Promise.all([mesh(f.mesh), still(f.still), inflate(f.chunk), f.fields ? fieldsOf(frames.grid, f.fields) : null]);
     const r = new Reader(bytes);
     const point = r.points(m.nodes);
     const sphere = { center: r.points(f.spheres), radius: r.quantised(f.spheres), id: r.integers(f.spheres) };
@@ -83,7 +104,7 @@ export function openFrames(frames) {
     for (const name of frames.columns) table[name] = r.quantised(f.cells);
     const row = new Map();
     if (table.id) table.id.forEach((id, place) => row.set(id, place));
-    return { time: f.time, number: f.number, mesh: m, still: s, point, sphere, table, row };
+    return { time: f.time, number: f.number, mesh: m, still: s, point, sphere, table, row, fields };
   });
   return { count: frames.list.length, times: frames.list.map((f) => f.time), frame };
 }

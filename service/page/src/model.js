@@ -5,6 +5,7 @@ import {
 } from "three";
 import { colourOf, SELECTED, valueOf } from "./colour.js";
 import { makeSection } from "./section.js";
+import { FieldSlice } from "./slice.js";
 import { disposeOf, drawWalls } from "./walls.js";
 
 const NUCLEUS = 3, OBSTACLE = 2;
@@ -19,8 +20,8 @@ function material(options) {
 }
 
 export class Model {
-  // walls: of run_part.cpp
-  constructor(plane, walls) {
+  // walls, grid: of run_part.cpp
+  constructor(plane, walls, grid) {
     this.plane = plane;
     this.walls = walls;
     this.drawnWalls = null;
@@ -33,7 +34,8 @@ export class Model {
     this.still = new Mesh(new BufferGeometry(), material({ color: OBSTACLE_COLOUR, clippingPlanes: [plane] }));
     this.sphereMaterial = material({ clippingPlanes: [plane] });
     this.spheres = null;
-    this.scene.add(this.cells, this.still, ...this.makeSectionParts());
+    this.slice = new FieldSlice(grid);
+    this.scene.add(this.cells, this.still, ...this.makeSectionParts(), this.slice.mesh);
     this.marked = null;
     this.showSpheres = true;
     this.isCut = false;
@@ -62,6 +64,13 @@ export class Model {
     this.section.geometry = this.sectionDepth.geometry = geometry;
     this.outlines.geometry = lines;
     this.owner = owner;
+  }
+
+  // Shows a slice of a field in the plane of the cut, over the faces of cells, so that their outlines are left; of cells
+  // that the substance avoids under the faces. Its order places it: it leaves no depth.
+  showSlice(field, axis, at, range, avoidsCells) {
+    this.slice.show(this.frame, field, axis, at, range);
+    this.slice.mesh.renderOrder = avoidsCells ? 0.5 : 2.5;
   }
 
   show(frame) {
@@ -198,9 +207,18 @@ export class Model {
     each(this.frame.sphere.center, this.frame.sphere.radius);
   }
 
+  // The same with the box of the fields while one of them is shown.
+  fullBox() {
+    const [low, high] = this.box();
+    const p = new Vector3();
+    this.slice.forEachCorner((x, y, z) => { low.min(p.set(x, y, z)); high.max(p); });
+    return [low, high];
+  }
+
   // Points that a picture of everything has to hold, walls included: visit(x, y, z, radius).
   forEachDrawn(visit) {
     this.forEachPoint(visit);
+    this.slice.forEachCorner((x, y, z) => visit(x, y, z, 0));
     this.drawnWalls?.traverse((o) => {
       const position = o.geometry?.getAttribute("position");
       for (let k = 0; k < (position?.count ?? 0); ++k) visit(position.getX(k) + o.position.x, position.getY(k) + o.position.y, position.getZ(k) + o.position.z, 0);

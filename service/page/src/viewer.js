@@ -3,12 +3,14 @@ import { PerspectiveCamera, Plane, Raycaster, Vector2, Vector3, WebGLRenderer } 
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { availableFields, classColour, FIELDS, gradient, rangeOf, SELECTED, valueOf } from "./colour.js";
 import { Model, OBSTACLE_COLOUR } from "./model.js";
-import { duration, make, number } from "./text.js";
+import { extremesOf, labelOf } from "./slice.js";
+import { duration, make, nice, number } from "./text.js";
 import { WALL_COLOUR } from "./walls.js";
 
 const EVERYTHING = 1e9;
 const VIEW_ANGLE = 32; // degrees
 const FROM = new Vector3(0.45, -0.8, 0.55).normalize(); // the front, a little above
+const FROM_SLICE = [[1, -0.3, 0.3], [0.3, -1, 0.3], [0.15, -0.4, 1]].map((v) => new Vector3(...v).normalize()); // by axis
 const ROOM = 1.05; // between what is drawn and the edges of the picture
 const SCALE_BAR = 120; // px at most
 
@@ -31,7 +33,7 @@ export class Viewer {
     this.picked = picked;
     this.times = [...new Set(runs.flatMap((r) => r.frames.times))].sort((a, b) => a - b);
     this.plane = new Plane(new Vector3(1, 0, 0), EVERYTHING);
-    this.models = runs.map((r) => new Model(this.plane, r.walls ?? []));
+    this.models = runs.map((r) => new Model(this.plane, r.walls ?? [], r.raw.grid));
     this.field = this.bothModels() ? "model" : "cell";
     this.canvas = make("canvas", { tabindex: "0", role: "img", "aria-label": "Cells in three dimensions. Arrow keys turn, plus and minus zoom." });
     this.scale = make("div", { class: "scale", title: "in the middle of what is shown" }, make("i", {}), make("span", {}));
@@ -106,16 +108,48 @@ export class Viewer {
     this.select = make("select", { id: "field", onchange: () => this.colourBy(this.select.value) }, ...names.map((n) => make("option", { value: n, selected: n === this.field }, FIELDS[n].label)));
     if (!names.includes(this.field)) this.field = names[0] ?? "model";
     this.legend = make("div", { class: "legend", "aria-live": "polite" });
-    this.axis = make("select", { id: "cut", onchange: () => this.cut() }, ...["off", "x", "y", "z"].map((a) => make("option", { value: a }, a === "off" ? "off" : `across ${a}`)));
+    this.axis = make("select", { id: "cut", onchange: () => (this.slice?.value && this.isCut() ? this.reset() : this.cut()) }, ...["off", "x", "y", "z"].map((a) => make("option", { value: a }, a === "off" ? "off" : `across ${a}`)));
     this.depth = make("input", { type: "range", min: 0, max: 1, step: 0.01, value: 0.5, disabled: true, "aria-label": "Position of the cut", oninput: () => this.cut() });
     return make("div", { class: "controls" },
       make("div", { class: "row time" }, this.playButton, this.slider, this.clock),
       make("div", { class: "row" }, make("label", { for: "field" }, "Colour by"), this.select, this.legend),
       this.makeSwitches(),
+      this.makeFieldChoice(),
       make("div", { class: "row" }, make("label", { for: "cut" }, "Cut"), this.axis, this.depth,
         make("button", { type: "button", class: "reset", onclick: () => this.reset() }, "Reset view")),
       make("p", { class: "hint" }, "Drag to turn, scroll to zoom, right-drag to move. Click a cell for its values and history."));
   }
+
+  // A choice of the field that the cut shows; null without substances.
+  makeFieldChoice() {
+    const unit = Object.fromEntries(this.runs.flatMap(({ raw }) => (raw.grid?.names ?? []).map((name, k) => [name, raw.grid.units[k]])));
+    this.unitOfSlice = unit;
+    if (Object.keys(unit).length === 0) return null;
+    this.slice = make("select", { id: "slice", onchange: () => this.sliceBy(this.slice.value) }, make("option", { value: "" }, "none"),
+      ...Object.keys(unit).map((name) => make("option", { value: name }, labelOf(name))));
+    this.sliceLegend = make("div", { class: "legend", "aria-live": "polite" });
+    return make("div", { class: "row" }, make("label", { for: "slice" }, "Slice of"), this.slice, this.sliceLegend);
+  }
+
+  // Shows a field of a substance in the plane of the cut, which begins in the middle across y.
+  async sliceBy(name) {
+    if (name && !this.isCut()) this.axis.value = "y";
+    if (name) this.sliceRange = extremesOf(name, await this.allFrames());
+    if (this.slice.value !== name) return; // another one was chosen meanwhile
+    this.sliceLegend.replaceChildren(...(name ? this.barOf(this.sliceRange, nice(this.unitOfSlice[name])) : []));
+    this.placeSlices();
+    await this.reset();
+  }
+
+  placeSlices() {
+    if (!this.slice) return;
+    const axis = "xyz".indexOf(this.axis.value), at = axis < 0 ? 0 : this.plane.coplanarPoint(new Vector3()).getComponent(axis);
+    const name = this.slice.value;
+    const avoidsCells = (scene) => scene?.substances?.some((s) => s.name === name && s.cells === "keep_out");
+    this.models.forEach((m, k) => m.showSlice(name, axis, at, this.sliceRange, avoidsCells(this.runs[k].scene)));
+  }
+
+  allFrames() { return Promise.all(this.runs.flatMap((r) => r.frames.times.map((_, k) => r.frames.frame(k)))); }
 
   async showTime(k) {
     const wanted = (this.wanted = this.times[k]);
@@ -123,6 +157,7 @@ export class Viewer {
     const frames = await Promise.all(this.runs.map((r) => r.frames.frame(near(r.frames.times))));
     if (this.wanted !== wanted) return; // moved on meanwhile
     frames.forEach((f, i) => { this.models[i].show(f); this.models[i].cut(this.isCut()); });
+    this.placeSlices();
     this.tags.forEach((tag, i) => { tag.textContent = this.runs[i].name + (this.models[i].isCompact() ? "" : ": cells far apart at this time"); });
     this.slider.value = k;
     this.clock.textContent = `${duration(wanted)} · frame ${frames[0].number}`;
@@ -140,8 +175,7 @@ export class Viewer {
   async paint() {
     const field = FIELDS[this.field];
     if (!field.classes && !field.each && this.ranged !== this.field) {
-      const all = await Promise.all(this.runs.flatMap((r) => r.frames.times.map((_, k) => r.frames.frame(k))));
-      this.range = rangeOf(this.field, all);
+      this.range = rangeOf(this.field, await this.allFrames());
       this.ranged = this.field;
     }
     for (const m of this.models) m.paint(this.field, this.range ?? [0, 1]);
@@ -155,8 +189,11 @@ export class Viewer {
       const seen = [...new Set(this.models.flatMap((m) => [...m.frame.row.values()].map((at) => valueOf(this.field, m.frame.table, at))))].sort();
       return seen.map((k) => swatch(classColour(k), field.classes[k] ?? `type ${k}`));
     }
-    return [make("span", {}, number(+this.range[0].toPrecision(3))), make("i", { class: "bar", style: `background:${gradient()}` }),
-      make("span", {}, `${number(+this.range[1].toPrecision(3))} ${field.unit}`)];
+    return this.barOf(this.range, field.unit);
+  }
+
+  barOf([low, high], unit) {
+    return [make("span", {}, number(+low.toPrecision(3))), make("i", { class: "bar", style: `background:${gradient()}` }), make("span", {}, `${number(+high.toPrecision(3))} ${unit}`)];
   }
 
   isCut() { return this.axis.value !== "off"; }
@@ -167,6 +204,7 @@ export class Viewer {
     this.depth.disabled = axis < 0;
     if (axis < 0) {
       this.plane.constant = EVERYTHING;
+      if (this.slice?.value) this.sliceBy((this.slice.value = ""));
     } else {
       const low = this.low.getComponent(axis);
       const high = this.high.getComponent(axis);
@@ -175,6 +213,7 @@ export class Viewer {
       this.plane.constant = axis === 1 ? -at : at;
     }
     for (const m of this.models) m.cut(this.isCut());
+    this.placeSlices();
     return this.paint();
   }
 
@@ -182,27 +221,28 @@ export class Viewer {
   reset() {
     const near = this.models.filter((m) => m.isCompact());
     const fitted = near.length > 0 ? near : this.models;
-    const boxes = fitted.map((m) => m.box());
+    const boxes = fitted.map((m) => m.fullBox());
     this.low = boxes.map((b) => b[0]).reduce((a, b) => a.clone().min(b));
     this.high = boxes.map((b) => b[1]).reduce((a, b) => a.clone().max(b));
     this.fittedAspect = null;
     this.resize();
     this.fittedAspect = this.camera.aspect;
-    this.fit(fitted, this.low.clone().add(this.high).multiplyScalar(0.5));
+    const from = this.slice?.value ? FROM_SLICE["xyz".indexOf(this.axis.value)] : FROM;
+    this.fit(fitted, from, this.low.clone().add(this.high).multiplyScalar(0.5));
     return this.cut();
   }
 
   // Places the camera so that no point leaves the picture. Right, left, top and bottom are planes through the eye, so
   // the nearest eye from which all points are inside follows from the largest offset to each.
-  fit(models, middle) {
-    const right = new Vector3().crossVectors(this.camera.up, FROM).normalize(), up = new Vector3().crossVectors(FROM, right);
+  fit(models, from, middle) {
+    const right = new Vector3().crossVectors(this.camera.up, from).normalize(), up = new Vector3().crossVectors(from, right);
     const high = Math.tan((Math.PI / 360) * VIEW_ANGLE) / ROOM, wide = high * this.camera.aspect;
     const most = { right: -Infinity, left: -Infinity, top: -Infinity, bottom: -Infinity };
     const p = new Vector3();
     for (const m of models)
       m.forEachDrawn((x, y, z, r) => {
         p.set(x, y, z).sub(middle);
-        const [across, above, near] = [p.dot(right), p.dot(up), p.dot(FROM)];
+        const [across, above, near] = [p.dot(right), p.dot(up), p.dot(from)];
         const h = near * wide + r * Math.hypot(1, wide), v = near * high + r * Math.hypot(1, high);
         most.right = Math.max(most.right, h + across);
         most.left = Math.max(most.left, h - across);
@@ -212,7 +252,7 @@ export class Viewer {
     if (!Number.isFinite(most.right)) return;
     const distance = Math.max((most.right + most.left) / (2 * wide), (most.top + most.bottom) / (2 * high), 1e-3);
     middle.addScaledVector(right, (most.right - most.left) / 2).addScaledVector(up, (most.top - most.bottom) / 2);
-    this.camera.position.copy(middle).addScaledVector(FROM, distance);
+    this.camera.position.copy(middle).addScaledVector(from, distance);
     this.orbit.target.copy(middle);
     this.orbit.update();
   }
