@@ -8,6 +8,7 @@ import warnings
 import numpy as np
 
 from acinus.errors import AcinusError, BadInput, NoSuchItem
+from acinus.field import Field
 from acinus.law import Law
 from acinus.run import Run
 from acinus.tables import make_table, sort_by_id
@@ -109,7 +110,18 @@ class Simulation:
 
     def cells(self):
         """One row per cell, sorted by id, as run.cells(frame) has them; takes an assembly of all forces."""
-        return make_table(sort_by_id(self._sim.cells()), UNITS)
+        units = dict(UNITS)
+        for name, unit, _ in self._sim.fields()[2]:
+            units |= {f"concentration_{name}": unit, f"exchange_{name}": "um^3/s" if unit == "1" else f"{unit} um^3/s"}
+        return make_table(sort_by_id(self._sim.cells()), units)
+
+    def field(self, name):
+        """Concentration of a substance now, as run.field(name) has it: value (nz, ny, nx), origin, spacing, unit, time. A copy."""
+        origin, spacing, fields = self._sim.fields()
+        for found, unit, value in fields:
+            if found == name:
+                return Field(name, unit, self.time, value, np.array(origin), np.array(spacing))
+        raise NoSuchItem(f"{self._sim.name}: has no field {name}, but {', '.join(f[0] for f in fields) or 'no substances'}")
 
     def nodes(self, cell):
         """(n, 3) um, a view of a deformable cell's surface without a copy: read-only. It shows the moment it was taken in

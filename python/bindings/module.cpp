@@ -4,9 +4,14 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "acinus_version.hpp"
 #include "core/error.hpp"
+#include "coupling/substances/fields.hpp"
+#include "coupling/world/cell.hpp"
 #include "python/bindings/stepped_scene.hpp"
+#include "runs/assemble/substance_file.hpp"
 #include "runs/calibrate/calibrate_scene.hpp"
 #include "runs/calibrate/law_cache.hpp"
 #include "runs/compare/compare.hpp"
@@ -87,12 +92,42 @@ py::array triangles_of(SteppedScene& simulation, std::int64_t cell) {
   throw Error("there is no deformable cell " + std::to_string(cell) + " now");
 }
 
+/// Fields of substances: origin and spacing (um), then name, unit and values (nz, ny, nx) of each.
+py::tuple fields_of(const SteppedScene& simulation) {
+  const io::FieldFrame frame = runs::make_field_frame(simulation.world(), simulation.time());
+  const auto three = [](const Vec3& v) { return py::make_tuple(v.x(), v.y(), v.z()); };
+  py::list fields;
+  for (const io::VoxelField& f : frame.field) {
+    py::array_t<float> value({frame.n[2], frame.n[1], frame.n[0]});
+    std::ranges::copy(f.value, value.mutable_data());
+    fields.append(py::make_tuple(f.name, f.unit, value));
+  }
+  return py::make_tuple(three(frame.origin), three(frame.spacing), fields);
+}
+
 template <class Get>
 py::array column(const std::vector<coupling::CellMeasure>& cells, Get get) {
   using Value = decltype(get(cells[0]));
   py::array_t<Value> values(static_cast<py::ssize_t>(cells.size()));
   for (std::size_t k = 0; k < cells.size(); ++k) values.mutable_at(k) = get(cells[k]);
   return values;
+}
+
+/// Adds columns of substances: mean concentration in each cell, and secretion minus uptake.
+void add_substances(const SteppedScene& simulation, const std::vector<coupling::CellMeasure>& cells,
+                    py::dict& t) {
+  const coupling::World& world = simulation.world();
+  const std::vector<std::vector<double>> mean = coupling::cell_concentrations(world),
+                                         rate = coupling::cell_exchange_rates(world);
+  const coupling::CellIndex index = coupling::index_cells(world.state);
+  for (std::size_t k = 0; k < mean.size(); ++k) {
+    const std::string& name = world.params.substances.substance[k].name;
+    for (const auto& [kind, value] :
+         {std::pair("concentration_", &mean[k]), {"exchange_", &rate[k]}})
+      t[py::str(kind + name)] = column(cells, [&, of = value](const coupling::CellMeasure& m) {
+        return (*of)[index.at(m.id).index];
+      });
+  }
 }
 
 /// Columns of the run file's table /cells.
@@ -118,6 +153,7 @@ py::dict cells_of(SteppedScene& simulation) {
   t["contact_force"] = column(cells, [](const Measure& m) { return m.contact_force; });
   t["normal_force"] = column(cells, [](const Measure& m) { return m.normal_force; });
   t["migration_force"] = column(cells, [](const Measure& m) { return m.migration_force; });
+  add_substances(simulation, cells, t);
   return t;
 }
 
@@ -199,6 +235,7 @@ void bind_simulation(py::module_& m) {
       .def_property_readonly("type_names", &SteppedScene::type_names)
       .def_property_readonly("hash", &SteppedScene::hash)
       .def("cells", &cells_of)
+      .def("fields", &fields_of)
       .def("nodes", &nodes_of)
       .def("triangles", &triangles_of)
       .def("sphere_rows", &rows_of_spheres)

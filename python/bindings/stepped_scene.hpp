@@ -37,7 +37,8 @@ class SteppedScene {
   double time() const { return simulation_.time(); }
   bool is_running() const { return simulation_.is_running(); }
   const runs::Scene& scene() const { return scene_; }
-  const coupling::State& state() const { return simulation_.world().state; }
+  const coupling::World& world() const { return simulation_.world(); }
+  const coupling::State& state() const { return world().state; }
   const std::vector<std::string>& type_names() const { return type_names_; }
   std::uint64_t hash() const;
   /// One entry per cell, deformable ones first.

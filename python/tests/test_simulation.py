@@ -108,6 +108,35 @@ class Stepping(unittest.TestCase):
                 seconds(time)
 
 
+class Substances(unittest.TestCase):
+    def test_fields_and_cells_are_those_of_a_run(self):
+        changes = {"time.end": "10 min", "substance_grid.spacing": "10 um"}
+        with tempfile.TemporaryDirectory() as folder:
+            run = acinus.simulate("chemotaxis_dish", folder + "/run", changes)
+            sim = acinus.Simulation("chemotaxis_dish", changes)
+            sim.run()
+            self.assertEqual(sim.state_hash, run.summary["state_hash"])
+            [name] = [s["name"] for s in sim.scene["substances"]]
+            here, there = sim.field(name), run.field(name)
+            np.testing.assert_array_equal(here.value, there.value)
+            np.testing.assert_allclose(here.origin, there.origin, atol=1e-9)
+            np.testing.assert_array_equal(here.spacing, there.spacing)
+            self.assertEqual((here.unit, here.time), (there.unit, there.time))
+            cells = sim.cells()
+            for column in ("concentration_" + name, "exchange_" + name):
+                np.testing.assert_array_equal(cells[column], run.cells(frame=-1)[column])
+                self.assertEqual(cells.attrs["units"][column], run.unit("cells/" + column))
+            before = here.value.copy()
+            sim.run_for("5 min")
+            np.testing.assert_array_equal(here.value, before)  # a copy
+            with self.assertRaisesRegex(acinus.NoSuchItem, name):
+                sim.field("glucose")
+
+    def test_a_scene_without_substances_has_no_fields(self):
+        with self.assertRaisesRegex(acinus.NoSuchItem, "no substances"):
+            acinus.Simulation("two_cells").field("oxygen")
+
+
 class Looking(unittest.TestCase):
     def setUp(self):
         self.sim = acinus.Simulation("lobule_hybrid", {"start_up.growth_time": "30 min", "time.end": "10 min"})
