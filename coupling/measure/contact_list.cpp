@@ -78,38 +78,6 @@ class ContactAreas {
 
 }  // namespace
 
-CellContact& ContactSums::sum_of(const ContactForce& c) {
-  if (c.b == kNoCell) return sum_[{false, c.a, c.b, c.kind, c.index}];
-  return sum_[{true, std::min(c.a, c.b), std::max(c.a, c.b), {}, 0}];
-}
-
-void ContactSums::add(const ContactForce& c) {
-  if (c.b == kNoCell ? c.fades : !c.touching && !c.fades) return;
-  CellContact& sum = sum_of(c);
-  sum.force += c.a < c.b ? c.force : Vec3(-c.force);
-  sum.touching = sum.touching || c.touching;
-  if (c.b == kNoCell) sum.normal_force += c.force.dot(c.normal);
-}
-
-void ContactSums::add_areas(const ContactForce& c, double area_a, double area_b) {
-  if (c.a == c.b || (area_a <= 0 && area_b <= 0)) return;
-  CellContact& sum = sum_of(c);
-  sum.area_a += c.a < c.b ? area_a : area_b;
-  sum.area_b += c.a < c.b ? area_b : area_a;
-}
-
-std::vector<CellContact> ContactSums::list(const std::vector<CellMeasure>& cells) const {
-  std::vector<CellContact> list;
-  for (const auto& [key, sum] : sum_) {
-    CellContact& c = list.emplace_back(sum);
-    std::tie(c.a, c.b, c.partner, c.index) = std::tie(key.a, key.b, key.partner, key.index);
-    if (!key.pair) continue;
-    c.partner = cells[c.b].deformable ? Partner::kSurface : Partner::kSphere;
-    c.normal_force = c.force.dot((cells[c.a].center - cells[c.b].center).normalized());
-  }
-  return list;
-}
-
 std::vector<CellContact> list_contacts(const World& world, const Workspace& w,
                                        const std::vector<CellMeasure>& cells) {
   const ContactAreas areas(world, w, cells);
@@ -118,7 +86,9 @@ std::vector<CellContact> list_contacts(const World& world, const Workspace& w,
     sums.add(c);
     if (c.record != nullptr) sums.add_areas(c, areas.of_a(*c.record), areas.of_b(*c.record));
   });
-  std::vector<CellContact> list = sums.list(cells);
+  std::vector<Vec3> center;
+  for (const CellMeasure& m : cells) center.push_back(m.center);
+  std::vector<CellContact> list = sums.list(center, w.dcm.body.size());
   const solve::Ownership& ownership = w.system.ownership;
   if (ownership.is_whole()) return list;
   // The owners of both cells have the same force, and each the area of its own side.

@@ -5,7 +5,7 @@
 
 #include "core/sphere.hpp"
 #include "coupling/measure/contact_forces.hpp"
-#include "coupling/measure/contact_list.hpp"
+#include "coupling/measure/contact_sums.hpp"
 #include "coupling/measure/pair_contacts.hpp"
 #include "coupling/step/ghost_cells.hpp"
 #include "coupling/step/step.hpp"
@@ -114,7 +114,9 @@ void add_contacts(const World& world, const Workspace& w, std::vector<CellMeasur
     if (c.b != kNoCell) press(c.b, -c.force, c.arm_b);
     sums.add(c);
   });
-  for (const CellContact& pair : sums.list(cells))
+  std::vector<Vec3> center;
+  for (const CellMeasure& m : cells) center.push_back(m.center);
+  for (const CellContact& pair : sums.list(center, w.dcm.body.size()))
     for (const std::size_t k : {pair.a, pair.b}) {
       if (k == kNoCell) continue;
       if (pair.touching) ++cells[k].contacts;

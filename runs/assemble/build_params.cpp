@@ -57,11 +57,11 @@ void set_pair_adhesions(const Scene& scene, coupling::Params& p) {
   if (std::ranges::all_of(scene.cell_types,
                           [](const auto& t) { return t.second.adhesion_with.empty(); }))
     return;
-  struct Source {
+  struct PairedType {
     const CellType* type;
     double root = 1;  ///< of its softening
   };
-  std::vector<Source> source;  // [type], those of the scene first
+  std::vector<PairedType> source;  // [type], those of the scene first
   for (const auto& [name, type] : scene.cell_types) source.push_back({&type});
   source.resize(p.dcm.size());
   for (std::size_t k = 0; k < scene.cell_types.size(); ++k)
@@ -69,7 +69,7 @@ void set_pair_adhesions(const Scene& scene, coupling::Params& p) {
       source[soft] = {source[k].type, std::sqrt(source[k].type->softening)};
   for (std::size_t a = 0; a < source.size(); ++a) {
     p.dcm[a].adhesion_with.clear();
-    for (const Source& b : source)
+    for (const PairedType& b : source)
       p.dcm[a].adhesion_with.push_back(source[a].root * b.root *
                                        pair_adhesion(scene, *source[a].type, *b.type));
     p.cbm[a].adhesion_with = p.dcm[a].adhesion_with;
