@@ -89,12 +89,12 @@ LinkGraph join(const LinkGraph& fine, const std::vector<int>& group, int n) {
   return g;
 }
 
-/// Joins groups of a graph, which becomes that of the joined ones.
+/// Joins groups of a graph, which becomes that of the joined ones, so often by twos.
 /// @return [n] joined group
-std::vector<int> join_groups(LinkGraph& graph) {
+std::vector<int> join_groups(LinkGraph& graph, int pairings) {
   std::vector<int> parent(graph.n()), group;
   std::iota(parent.begin(), parent.end(), 0);
-  for (int k = 0; k < kPairings; ++k) {
+  for (int k = 0; k < pairings; ++k) {
     const int n = pair_up(graph, group);
     graph = join(graph, group, n);
     for (int& p : parent) p = group[static_cast<std::size_t>(p)];
@@ -162,11 +162,40 @@ LinkGraph graph_of(const Level<float>& l, std::span<const double> own, std::vect
 }  // namespace
 
 void Aggregates::set(const Level<float>& finest, std::span<const double> own) {
-  LinkGraph graph = graph_of(finest, own, group_);
+  build(graph_of(finest, own, group_), kPairings);
+}
+
+void Aggregates::set(LinkGraph finest) {
+  set_inverse(finest);
+  group_.resize(finest.n());
+  std::iota(group_.begin(), group_.end(), 0);
+  finest_residual_.assign(finest.n(), 0.0F);
+  finest_ = std::move(finest);
+  // Sweeps cannot move two unknowns with a link far stronger than their others. The first level
+  // makes one of them, which its own sweeps move.
+  build(finest_, 1);
+}
+
+void Aggregates::apply(const std::vector<float>& b, std::vector<float>& x) {
+  std::ranges::fill(x, 0.0F);
+  sweep(finest_, b, true, x);
+  subtract(finest_, b, x, finest_residual_);
+  std::vector<float>& coarse = rhs_.front();
+  std::ranges::fill(coarse, 0.0F);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    coarse[static_cast<std::size_t>(group_[i])] += finest_residual_[i];
+  cycle(0);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] += kOverCorrection * solution_.front()[static_cast<std::size_t>(group_[i])];
+  sweep(finest_, b, false, x);
+}
+
+void Aggregates::build(LinkGraph graph, int pairings) {
   level_.clear();
   for (;;) {
     const std::size_t before = graph.n();
-    std::vector<int> parent = join_groups(graph);
+    std::vector<int> parent = join_groups(graph, pairings);
+    pairings = kPairings;
     if (level_.empty()) {
       for (int& g : group_)
         if (g >= 0) g = parent[static_cast<std::size_t>(g)];

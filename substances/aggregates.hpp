@@ -32,10 +32,19 @@ class Aggregates {
   /// x += correction for the residual.   @param r, x  padded, as of the finest level
   void correct(const PaddedLayout& layout, const float* r, float* x);
 
+  /// Groups the unknowns of any graph, for apply().
+  void set(LinkGraph finest);
+  /// x = approximate solution for b, sweeps on the finest level included.   @param b, x  [n]
+  void apply(const std::vector<float>& b, std::vector<float>& x);
+
  private:
+  /// @param pairings  from the graph to the first level
+  void build(LinkGraph graph, int pairings);
   void cycle(std::size_t at);
 
-  std::vector<int> group_;  ///< [n_voxel] of the first level; -1: closed
+  LinkGraph finest_;  ///< of apply()
+  std::vector<float> finest_residual_;
+  std::vector<int> group_;  ///< [n_voxel, or n of finest_] of the first level; -1: closed
   std::vector<LinkGraph> level_;
   std::vector<std::vector<float>> rhs_, solution_, residual_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "substances/membrane.hpp"
 #include "substances/planes.hpp"
 
 namespace acinus::substances {
@@ -76,13 +77,19 @@ class Stepper {
         supply_(how.supply),
         rate_(face_rates(grid, medium)),
         space_(how.space),
+        parts_(how.parts),
+        permeability_(how.permeability),
         held_(how.held),
         solver_(solver),
         system_(solver.scratch().system),
         before_(solver.scratch().before),
         around_(solver.scratch().around) {
     for (const Exchange& e : bodies.exchange) nonlinear_ = nonlinear_ || e.uptake_max > 0;
-    const std::size_t n = grid.n_voxel();
+    const std::size_t n = grid.n_voxel() + (parts_ == nullptr ? 0 : parts_->n());
+    if (parts_ != nullptr) {
+      capacity_ = space_->volume;
+      for (const double volume : parts_->volume) capacity_.push_back(volume / grid.voxel_volume());
+    }
     system_.own.resize(n);
     system_.rhs.resize(n);
     system_.open = space_ == nullptr ? nullptr : &space_->face;
@@ -92,13 +99,16 @@ class Stepper {
     before_.assign(c.begin(), c.end());
     if (space_ != nullptr)
       for (std::size_t v = 0; v < before_.size(); ++v)
-        before_[v] = held_.empty() ? space_->volume[v] * c[v] : held_[v];
+        before_[v] = held_.empty() ? open_fraction(v) * c[v] : held_[v];
     held_ = {};
     const double held = total_amount(grid_, before_);
     for (int k = 0; k < (nonlinear_ ? kMostLinearisations : 1); ++k) {
       if (nonlinear_) around_.assign(c.begin(), c.end());
       assemble(step);
-      const SolveResult solved = solver_.solve(system_, tolerance_, c);
+      const SolveResult solved =
+          parts_ == nullptr ? solver_.solve(system_, tolerance_, c)
+                            : solve_parts(grid_, *parts_, {permeability_, medium_.diffusion, step},
+                                          system_, tolerance_, c);
       ++budget.solves;
       budget.iterations += solved.iterations;
       budget.converged = solved.converged;
@@ -112,12 +122,12 @@ class Stepper {
   }
 
  private:
+  /// Fraction of a voxel that each unknown fills.
   std::span<const double> open() const {
+    if (parts_ != nullptr) return capacity_;
     return space_ == nullptr ? std::span<const double>{} : space_->volume;
   }
-  double open_fraction(std::size_t voxel) const {
-    return space_ == nullptr ? 1 : space_->volume[voxel];
-  }
+  double open_fraction(std::size_t at) const { return space_ == nullptr ? 1 : open()[at]; }
   /// Rate of exchange through a face of the box, 1/s.
   double rate_through(int side, std::size_t face) const {
     return space_ == nullptr ? rate_[side] : rate_[side] * space_->face[side / 2][face];
@@ -143,7 +153,7 @@ class Stepper {
       system_.rhs[voxel] += step * rate * supply_ * medium_.face[side].value;
     });
     if (!medium_.gain.empty())
-      for (std::size_t v = 0; v < system_.own.size(); ++v) {
+      for (std::size_t v = 0; v < medium_.gain.size(); ++v) {
         system_.own[v] += step * open_fraction(v) * medium_.loss[v];
         system_.rhs[v] += step * supply_ * open_fraction(v) * medium_.gain[v];
       }
@@ -184,7 +194,7 @@ class Stepper {
                  (supply_ * medium_.face[side].value - c[voxel]);
     });
     if (!medium_.gain.empty())
-      for (std::size_t v = 0; v < c.size(); ++v)
+      for (std::size_t v = 0; v < medium_.gain.size(); ++v)
         supplied +=
             step * volume * open_fraction(v) * (supply_ * medium_.gain[v] - medium_.loss[v] * c[v]);
     for (std::size_t v = 0; v < medium_.wall_gain.size(); ++v)
@@ -202,6 +212,9 @@ class Stepper {
   double tolerance_, supply_;
   std::array<double, 6> rate_;
   const OpenSpace* space_;
+  const Parts* parts_;
+  double permeability_;
+  std::vector<double> capacity_;  ///< [n_voxel, then parts], with parts
   std::span<const double> held_;  ///< of the first substep
   bool nonlinear_ = false;
   Solver& solver_;
@@ -247,8 +260,11 @@ Budget advance(const VoxelGrid& grid, const Medium& medium, const ExchangingBodi
 
 double total_amount(const VoxelGrid& grid, std::span<const double> c,
                     std::span<const double> open) {
-  return grid.voxel_volume() *
-         (open.empty() ? sum_voxels(grid.n[2], c) : dot_voxels(grid.n[2], open, c));
+  const std::size_t n = grid.n_voxel();
+  if (open.empty())
+    return grid.voxel_volume() * (sum_voxels(grid.n[2], c.first(n)) + sum_numbers(c.subspan(n)));
+  return grid.voxel_volume() * (dot_voxels(grid.n[2], open.first(n), c.first(n)) +
+                                dot_numbers(open.subspan(n), c.subspan(n)));
 }
 
 }  // namespace acinus::substances

@@ -8,6 +8,11 @@
 /// With obstacles, c is the concentration of the open space. Voxels store c times their open
 /// fraction, faces conduct D times their open fraction of the area. Decay and sources act on the
 /// open fraction.
+///
+/// With parts, the substance is also inside bodies, behind membranes: unknowns of their own, whose
+/// faces conduct D times the fraction of the area inside the body. A membrane lets through
+/// permeability times area times the difference of concentrations. A closed voxel between
+/// membranes is a cleft that holds nothing.
 
 #include <array>
 #include <cstdint>
@@ -17,6 +22,7 @@
 #include "substances/grid.hpp"
 #include "substances/medium.hpp"
 #include "substances/open_space.hpp"
+#include "substances/parts.hpp"
 #include "substances/shares.hpp"
 #include "substances/solve.hpp"
 
@@ -53,17 +59,23 @@ struct Advance {
   /// With `space`: [n_voxel] amounts at the start per volume of a voxel, 0 in closed voxels; empty:
   /// those of c.
   std::span<const double> held{};
+  /// Insides of bodies; nullptr: none. c and held then go on with the parts, and so do the numbers
+  /// of voxels in shares of bodies: n_voxel + part.
+  const Parts* parts = nullptr;
+  double permeability = 0;  ///< um/s, of membranes
 };
 
 /// Advances a field.
 /// @param bodies  with obstacles, shares in open voxels
-/// @param c       [n_voxel] concentration, changed; fill_closed gives closed voxels their value
+/// @param c       [n_voxel, then parts] concentration, changed; fill_closed gives closed voxels
+/// their value
 /// @param gained  [body] amount secreted minus taken up, added to; empty: not wanted
 Budget advance(const VoxelGrid& grid, const Medium& medium, const ExchangingBodies& bodies,
                const Advance& how, Solver& solver, std::span<double> c, std::span<double> gained);
 
-/// Amount in all voxels.
-/// @param open  [n_voxel] open fractions; empty: all is open
+/// Amount in all voxels and parts.
+/// @param c     [n_voxel, then parts]
+/// @param open  fractions of a voxel that they fill; empty: all is open
 double total_amount(const VoxelGrid& grid, std::span<const double> c,
                     std::span<const double> open = {});
 

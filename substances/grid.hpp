@@ -27,6 +27,12 @@ struct VoxelGrid {
                static_cast<std::size_t>(n[0]) +
            static_cast<std::size_t>(i);
   }
+  /// Numbers along the axes of the voxel at an index.
+  std::array<int, 3> place(std::size_t index) const {
+    const auto nx = static_cast<std::size_t>(n[0]), ny = static_cast<std::size_t>(n[1]);
+    return {static_cast<int>(index % nx), static_cast<int>(index / nx % ny),
+            static_cast<int>(index / (nx * ny))};
+  }
   /// Faces across an axis, in storage order: face i of a row is below its voxel i, and there is one
   /// more of them than voxels.
   std::size_t n_face(int axis) const {

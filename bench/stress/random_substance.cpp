@@ -65,7 +65,12 @@ Json SubstanceDrawing::draw_substance(int number) {
   if (setting_.vessels && chance(0.6))
     s["vessels"] = {{"concentration", concentration},
                     {"permeability", fmt::format("{:.5g} um/s", permeability)}};
-  if (chance(0.5)) s["cells"] = "keep_out";
+  if (const double way = random_.uniform(); way < 0.2) {
+    s["cells"] = "membrane";
+    s["permeability"] = fmt::format("{:.5g} um/s", permeability);
+  } else if (way < 0.5) {
+    s["cells"] = "keep_out";
+  }
   if (chance(0.3)) s["obstacles"] = "keep_out";
   if (chance(0.2))
     s["course"] = {{{"time", "0 s"}, {"factor", 1}},

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
+#include "coupling/substances/insides.hpp"
 #include "coupling/world/cell.hpp"
 #include "substances/diffusion.hpp"
 
@@ -37,13 +38,16 @@ std::vector<substances::VoxelShare> share_cell(const substances::VoxelGrid& grid
 class SharesOfCells {
  public:
   SharesOfCells(const SubstanceParams& p, const State& s) : params_(p), state_(s) {}
-  const substances::Shares& of(const Substance& substance) {
-    std::optional<substances::Shares>& shares = shares_[substance.outside_cells ? 1 : 0];
-    if (!shares) shares = share_cells(params_, state_, substance.outside_cells);
+  const substances::Shares& of(const Substance& substance) { return of(substance.outside_cells); }
+  const substances::Shares& by_area() { return of(true); }
+
+ private:
+  const substances::Shares& of(bool by_area) {
+    std::optional<substances::Shares>& shares = shares_[by_area ? 1 : 0];
+    if (!shares) shares = share_cells(params_, state_, by_area);
     return *shares;
   }
 
- private:
   const SubstanceParams& params_;
   const State& state_;
   std::array<std::optional<substances::Shares>, 2> shares_;
@@ -57,19 +61,6 @@ substances::Shares move_to_open(substances::Shares shares, const substances::Ope
 
 bool is_dissolving(const State& s, const Cell& c) {
   return c.index < s.cycle.size() && s.cycle[c.index].fate == Fate::kLyse;
-}
-
-double area_of(const State& s, const Cell& c) {
-  if (!c.deformable) {
-    const double r = sphere_radius(s.cbm.volume[c.at].at(s.clock.time));
-    return 4 * kPi * r * r;
-  }
-  std::vector<Vec3> node;
-  dcm::copy_nodes(s.dcm, c.at, node);
-  double sum = 0;
-  for (const auto& [i, j, k] : s.dcm.group[c.at / kLanes].topology->triangle)
-    sum += 0.5 * (node[j] - node[i]).cross(node[k] - node[i]).norm();
-  return sum;
 }
 
 /// Exchange of a cell per volume; that of its surface is spread over its volume.
@@ -109,7 +100,20 @@ std::span<const double> hold_amounts(const SubstanceState& field,
   return held;
 }
 
-/// f(substance, cell, its shares) for all cells, [substance][dcm lanes, then cbm cells].
+/// Amounts around and inside cells. Concentrations inside, a first guess, follow those of voxels.
+std::span<const double> join_insides(const World& world, const substances::Parts& parts,
+                                     const substances::OpenSpace& space, SubstanceState& field,
+                                     std::vector<double>& held) {
+  const substances::VoxelGrid& grid = world.params.substances.grid;
+  held.resize(grid.n_voxel() + parts.n(), 0.0);
+  carry_insides(world, field.inside, parts, space, held);
+  for (std::size_t p = 0; p < parts.n(); ++p)
+    field.concentration.push_back(held[grid.n_voxel() + p] * grid.voxel_volume() / parts.volume[p]);
+  return held;
+}
+
+/// f(substance, cell, its shares, the concentrations they are shares of) for all cells,
+/// [substance][dcm lanes, then cbm cells].
 template <class F>
 std::vector<std::vector<double>> of_each_cell(const World& world, const F& f) {
   const SubstanceParams& p = world.params.substances;
@@ -120,9 +124,15 @@ std::vector<std::vector<double>> of_each_cell(const World& world, const F& f) {
   std::vector<std::vector<double>> value;
   for (std::size_t k = 0; k < s.substance.size(); ++k) {
     const substances::Shares& shares = all.of(p.substance[k]);
+    const InsideState& inside = s.substance[k].inside;
+    const InsidesOfCells insides(s, inside);
     std::vector<double>& of_cell = value.emplace_back(s.dcm.n_lane() + s.cbm.n_cell(), 0.0);
-    for (std::size_t b = 0; b < cells.size(); ++b)
-      of_cell[cells[b].index] = f(k, cells[b], shares.of(b));
+    for (std::size_t b = 0; b < cells.size(); ++b) {
+      const auto within = insides.of(cells[b]);
+      of_cell[cells[b].index] = within.empty()
+                                    ? f(k, cells[b], shares.of(b), s.substance[k].concentration)
+                                    : f(k, cells[b], within, inside.concentration);
+    }
   }
   return value;
 }
@@ -135,6 +145,23 @@ void begin_substances(const SubstanceParams& p, State& s) {
     SubstanceState field;
     field.concentration.assign(p.grid.n_voxel(), substance.initial);
     s.substance.push_back(std::move(field));
+  }
+}
+
+void begin_open_spaces(World& world) {
+  const SubstanceParams& p = world.params.substances;
+  State& s = world.state;
+  if (std::ranges::none_of(p.substance, &Substance::is_kept_out)) return;
+  ObstacleCover obstacles;
+  const OpenSpaces spaces = find_open_spaces(world, obstacles);
+  for (std::size_t k = 0; k < p.substance.size(); ++k) {
+    const Substance& substance = p.substance[k];
+    if (!substance.is_kept_out()) continue;
+    s.substance[k].open = spaces.of(substance)->volume;
+    if (!substance.has_membranes()) continue;
+    const substances::Parts parts = make_parts(world, spaces.cells, share_cells(p, s, true));
+    s.substance[k].inside =
+        keep_insides(s, parts, std::vector<double>(parts.n(), substance.initial));
   }
 }
 
@@ -160,13 +187,18 @@ void advance_substances(World& world, double step, SubstanceWorkspace& work, Tim
   const std::vector<Cell> cells = list_cells(s);
   SharesOfCells all(p, s);
   const OpenSpaces spaces = find_open_spaces(world, work.obstacles);
+  substances::Parts parts;
+  if (std::ranges::any_of(p.substance, &Substance::has_membranes))
+    parts = make_parts(world, spaces.cells, all.by_area());
   for (std::size_t k = 0; k < p.substance.size(); ++k) {
     const Substance& substance = p.substance[k];
     SubstanceState& field = s.substance[k];
     const substances::OpenSpace* space = spaces.of(substance);
     const substances::Shares& everywhere = all.of(substance);
-    const substances::Shares in_open =
-        space == nullptr ? substances::Shares{} : move_to_open(everywhere, *space);
+    const substances::Shares in_open = space == nullptr ? substances::Shares{}
+                                       : substance.has_membranes()
+                                           ? share_parts(parts, p.grid.n_voxel())
+                                           : move_to_open(everywhere, *space);
     const substances::Shares& shares = space == nullptr ? everywhere : in_open;
     const std::vector<substances::Exchange> exchange =
         exchange_of_cells(substance, s, cells, shares);
@@ -177,8 +209,19 @@ void advance_substances(World& world, double step, SubstanceWorkspace& work, Tim
       how.space = space;
       how.held = hold_amounts(field, *space, work.held);
     }
+    if (substance.has_membranes()) {
+      how.held = join_insides(world, parts, *space, field, work.held);
+      how.parts = &parts;
+      how.permeability = substance.permeability;
+    }
     const substances::Budget budget = substances::advance(
         p.grid, substance.medium, {shares, exchange}, how, work.solver, field.concentration, {});
+    if (substance.has_membranes()) {
+      const std::span<const double> inside =
+          std::span(field.concentration).subspan(p.grid.n_voxel());
+      field.inside = keep_insides(s, parts, inside);
+      field.concentration.resize(p.grid.n_voxel());
+    }
     if (space != nullptr) {
       substances::fill_closed(p.grid, *space, field.concentration);
       field.open = space->volume;
@@ -196,7 +239,10 @@ void advance_substances(World& world, double step, SubstanceWorkspace& work, Tim
 }
 
 double amount_of(const SubstanceParams& p, const SubstanceState& field) {
-  return substances::total_amount(p.grid, field.concentration, field.open);
+  double inside = 0;
+  for (std::size_t part = 0; part < field.inside.cell.size(); ++part)
+    inside += field.inside.volume[part] * field.inside.concentration[part];
+  return substances::total_amount(p.grid, field.concentration, field.open) + inside;
 }
 
 double next_supply_change(const SubstanceParams& p, double time) {
@@ -206,22 +252,21 @@ double next_supply_change(const SubstanceParams& p, double time) {
 }
 
 std::vector<std::vector<double>> cell_concentrations(const World& world) {
-  return of_each_cell(world,
-                      [&](std::size_t k, const Cell&, std::span<const substances::VoxelShare> of) {
-                        return substances::mean_over(of, world.state.substance[k].concentration);
-                      });
+  return of_each_cell(
+      world, [](std::size_t, const Cell&, std::span<const substances::VoxelShare> shares,
+                const std::vector<double>& c) { return substances::mean_over(shares, c); });
 }
 
 std::vector<std::vector<double>> cell_exchange_rates(const World& world) {
   const State& s = world.state;
   return of_each_cell(
-      world, [&](std::size_t k, const Cell& c, std::span<const substances::VoxelShare> shares) {
+      world, [&](std::size_t k, const Cell& c, std::span<const substances::VoxelShare> shares,
+                 const std::vector<double>& concentration) {
         const substances::Exchange exchange =
             exchange_of(world.params.substances.substance[k], s, c, shares);
         double sum = 0;
         for (const substances::VoxelShare& share : shares)
-          sum += share.volume *
-                 substances::exchange_rate(exchange, s.substance[k].concentration[share.voxel]);
+          sum += share.volume * substances::exchange_rate(exchange, concentration[share.voxel]);
         return sum;
       });
 }

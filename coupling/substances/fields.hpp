@@ -22,6 +22,10 @@ struct SubstanceWorkspace {
 /// Sets all fields to their initial values.
 void begin_substances(const SubstanceParams& params, State& state);
 
+/// Sets the open fractions of the state to those of the present cells. Concentrations around cells
+/// stay, those inside cells behind membranes are the initial ones.
+void begin_open_spaces(World& world);
+
 /// Shares of all cells in the voxels, in the order of for_each_cell.
 /// @param by_area  false: the voxels of their inside; true: those of their surface, for substances
 ///                 that are kept out of them

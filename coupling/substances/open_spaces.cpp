@@ -133,7 +133,7 @@ OpenSpaces find_open_spaces(const World& world, ObstacleCover& obstacles) {
   const auto any = [&](auto member) {
     return std::ranges::any_of(p.substance, [&](const Substance& x) { return x.*member; });
   };
-  std::vector<substances::Cover> cells;
+  std::vector<substances::Cover>& cells = spaces.cells;
   if (any(&Substance::outside_cells)) {
     const std::vector<Cell> cell = list_cells(s);
     cells.resize(cell.size());
@@ -160,16 +160,6 @@ OpenSpaces find_open_spaces(const World& world, ObstacleCover& obstacles) {
     spaces.space[kind_of(substance)] = std::move(open);
   }
   return spaces;
-}
-
-void begin_open_spaces(World& world) {
-  const SubstanceParams& p = world.params.substances;
-  if (std::ranges::none_of(p.substance, &Substance::is_kept_out)) return;
-  ObstacleCover obstacles;
-  const OpenSpaces spaces = find_open_spaces(world, obstacles);
-  for (std::size_t k = 0; k < p.substance.size(); ++k)
-    if (p.substance[k].is_kept_out())
-      world.state.substance[k].open = spaces.of(p.substance[k])->volume;
 }
 
 }  // namespace acinus::coupling

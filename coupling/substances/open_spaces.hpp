@@ -2,6 +2,7 @@
 /// Space that cells and obstacles leave to substances that are kept out of them.
 
 #include <array>
+#include <vector>
 
 #include "coupling/world/world.hpp"
 #include "substances/cover.hpp"
@@ -19,6 +20,8 @@ struct ObstacleCover {
 struct OpenSpaces {
   /// By what a substance is kept out of: cells, obstacles, both. Empty where no substance needs it.
   std::array<substances::OpenSpace, 3> space;
+  /// Covers of the cells, in the order of for_each_cell; empty if no substance is kept out of them.
+  std::vector<substances::Cover> cells;
 
   /// Space of a substance; nullptr: everywhere.
   const substances::OpenSpace* of(const Substance& substance) const;
@@ -28,8 +31,5 @@ struct OpenSpaces {
 /// @param obstacles  kept between calls; computed anew if a wall moves
 /// @throws Error(kCannotContinue) if no space is left
 OpenSpaces find_open_spaces(const World& world, ObstacleCover& obstacles);
-
-/// Sets the open fractions of the state to those of the present cells. Concentrations stay.
-void begin_open_spaces(World& world);
 
 }  // namespace acinus::coupling

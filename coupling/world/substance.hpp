@@ -27,7 +27,10 @@ struct Substance {
   Schedule course;  ///< factor on the values of faces, vessels and sources, s since t = 0; empty: 1
   std::vector<CellExchange> exchange;  ///< [cell type]
   bool outside_cells = false;          ///< kept out of cells
-  bool outside_obstacles = false;      ///< kept out of walls, vessels and static meshes
+  /// um/s; > 0 with outside_cells: also inside cells, behind membranes that let it through.
+  double permeability = 0;
+  bool outside_obstacles = false;  ///< kept out of walls, vessels and static meshes
+  bool has_membranes() const { return permeability > 0; }
   bool is_kept_out() const { return outside_cells || outside_obstacles; }
 };
 
@@ -60,10 +63,18 @@ struct SubstanceParams {
   bool exists() const { return !substance.empty(); }
 };
 
+/// Concentrations inside cells behind membranes, one for each voxel that a cell reaches into; cells
+/// one after the other.
+struct InsideState {
+  std::vector<std::int64_t> cell, voxel;      ///< [part] lineage of the cell; voxel
+  std::vector<double> volume, concentration;  ///< [part] um^3 in the voxel; concentration there
+};
+
 /// Field of one substance, and what it gained and lost since t = 0 (amounts).
 struct SubstanceState {
   std::vector<double> concentration;  ///< [n_voxel] in the open space; values around it if closed
   std::vector<double> open;           ///< [n_voxel] open fraction of a voxel; empty: all is open
+  InsideState inside;                 ///< empty without membranes
   double secreted = 0, entered = 0, supplied = 0, decayed = 0;
 };
 

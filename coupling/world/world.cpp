@@ -127,6 +127,12 @@ std::uint64_t hash_state(const State& s) {
   for (const SubstanceState& field : s.substance) {
     add(field.concentration);
     if (!field.open.empty()) add(field.open);
+    if (const InsideState& inside = field.inside; !inside.cell.empty()) {
+      add(inside.cell);
+      add(inside.voxel);
+      add(inside.volume);
+      add(inside.concentration);
+    }
     add(std::array{field.secreted, field.entered, field.supplied, field.decayed});
   }
   const std::uint64_t value = XXH64_digest(hash);

@@ -27,6 +27,8 @@ constexpr double kBytesPerVoxel = 130, kBytesPerFieldVoxel = 24;
 /// More of them if a substance is kept out: its open space, and groups of voxels while they are
 /// made.
 constexpr double kBytesPerOpenVoxel = 230;
+/// More of them for the graph of a substance behind membranes.
+constexpr double kBytesPerGraphVoxel = 350;
 
 int index_of(const Scene& scene, const std::string& substance) {
   const auto found = std::ranges::find(scene.substances, substance, &SubstanceBlock::name);
@@ -100,7 +102,7 @@ substances::Medium make_medium(const Scene& scene, const SubstanceBlock& b,
           if (source.saturation > 0) m.loss[v] += source.secretion / source.saturation;
         }
   if (!b.vessels) return m;
-  const bool kept_out = b.outside_cells || b.outside_obstacles;
+  const bool kept_out = b.outside_cells() || b.outside_obstacles;
   if (kept_out) {
     m.wall_gain.assign(grid.n_voxel(), 0.0);
     m.wall_loss.assign(grid.n_voxel(), 0.0);
@@ -119,7 +121,8 @@ coupling::Substance make_substance(const Scene& scene, const SubstanceBlock& b,
   s.initial = b.initial;
   s.course = b.course;
   s.medium = make_medium(scene, b, world);
-  s.outside_cells = b.outside_cells;
+  s.outside_cells = b.outside_cells();
+  s.permeability = b.permeability;
   s.outside_obstacles = b.outside_obstacles;
   for (const auto& [name, type] : scene.cell_types) {
     const auto found = std::ranges::find(type.exchange, b.name, &ExchangeEntry::substance);
@@ -154,8 +157,11 @@ void check_inside(const Scene& scene, const coupling::World& world) {
 
 double substance_memory(double n_voxel, const std::vector<SubstanceBlock>& substances) {
   const bool kept_out = std::ranges::any_of(
-      substances, [](const SubstanceBlock& s) { return s.outside_cells || s.outside_obstacles; });
+      substances, [](const SubstanceBlock& s) { return s.outside_cells() || s.outside_obstacles; });
+  const bool has_membranes = std::ranges::any_of(
+      substances, [](const SubstanceBlock& s) { return s.cells == CellPassage::kMembrane; });
   return n_voxel * (kBytesPerVoxel + (kept_out ? kBytesPerOpenVoxel : 0) +
+                    (has_membranes ? kBytesPerGraphVoxel : 0) +
                     kBytesPerFieldVoxel * static_cast<double>(substances.size()));
 }
 

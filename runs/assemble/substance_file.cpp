@@ -8,6 +8,52 @@
 #include "runs/assemble/state_numbers.hpp"
 
 namespace acinus::runs {
+namespace {
+
+coupling::InsideState get_insides(const io::CheckpointData& d, const std::string& name) {
+  coupling::InsideState inside;
+  if (!d.contains(name + "cell")) return inside;
+  inside.cell = d.integers(name + "cell");
+  inside.voxel = d.integers(name + "voxel");
+  inside.volume = d.numbers(name + "volume");
+  inside.concentration = d.numbers(name + "concentration");
+  for (const std::size_t n :
+       {inside.voxel.size(), inside.volume.size(), inside.concentration.size()})
+    check_same(d, name + "cell", inside.cell.size(), n);
+  return inside;
+}
+
+/// True if all parts can be those of a grid, and there are none without membranes.
+bool is_sound(const coupling::InsideState& inside, bool has_membranes, std::size_t n_voxel) {
+  for (std::size_t p = 0; p < inside.cell.size(); ++p)
+    if (inside.voxel[p] < 0 || static_cast<std::size_t>(inside.voxel[p]) >= n_voxel ||
+        !std::isfinite(inside.concentration[p]) || !std::isfinite(inside.volume[p]) ||
+        !(inside.volume[p] > 0))
+      return false;
+  return has_membranes || inside.cell.empty();
+}
+
+/// Mean concentration of each voxel, around and inside cells.
+std::vector<float> mean_of_voxels(const substances::VoxelGrid& grid,
+                                  const coupling::SubstanceState& field) {
+  std::vector<double> amount(field.concentration.size()), fraction = field.open;
+  for (std::size_t v = 0; v < amount.size(); ++v)
+    amount[v] = field.open[v] * field.concentration[v];
+  const coupling::InsideState& inside = field.inside;
+  for (std::size_t p = 0; p < inside.cell.size(); ++p) {
+    const auto v = static_cast<std::size_t>(inside.voxel[p]);
+    const double share = inside.volume[p] / grid.voxel_volume();
+    amount[v] += share * inside.concentration[p];
+    fraction[v] += share;
+  }
+  std::vector<float> mean(amount.size());
+  for (std::size_t v = 0; v < mean.size(); ++v)
+    mean[v] =
+        static_cast<float>(fraction[v] > 0 ? amount[v] / fraction[v] : field.concentration[v]);
+  return mean;
+}
+
+}  // namespace
 
 void put_substances(const coupling::State& s, io::CheckpointData& d) {
   if (s.substance.empty()) return;
@@ -17,6 +63,12 @@ void put_substances(const coupling::State& s, io::CheckpointData& d) {
     const std::string name = fmt::format("substances/{}/", k);
     d.put(name + "concentration", field.concentration);
     if (!field.open.empty()) d.put(name + "open", field.open);
+    if (!field.inside.cell.empty()) {
+      d.put(name + "inside_cell", field.inside.cell);
+      d.put(name + "inside_voxel", field.inside.voxel);
+      d.put(name + "inside_volume", field.inside.volume);
+      d.put(name + "inside_concentration", field.inside.concentration);
+    }
     d.put(name + "amounts",
           std::vector{field.secreted, field.entered, field.supplied, field.decayed});
   }
@@ -43,8 +95,8 @@ void get_substances(const io::CheckpointData& d, coupling::State& s) {
     check_same(d, name + "amounts", amounts.size(), 4);
     s.substance.push_back(
         {d.numbers(name + "concentration"),
-         d.contains(name + "open") ? d.numbers(name + "open") : std::vector<double>{}, amounts[0],
-         amounts[1], amounts[2], amounts[3]});
+         d.contains(name + "open") ? d.numbers(name + "open") : std::vector<double>{},
+         get_insides(d, name + "inside_"), amounts[0], amounts[1], amounts[2], amounts[3]});
   }
   const std::vector<Vec3> force = unflatten_points(d.numbers("substances/guidance_force")),
                           heading = unflatten_points(d.numbers("substances/guidance_heading"));
@@ -71,6 +123,7 @@ void check_substances(const coupling::SubstanceParams& p, const coupling::State&
     const coupling::SubstanceState& field = s.substance[k];
     need(field.open.size() == (p.substance[k].is_kept_out() ? p.grid.n_voxel() : 0) &&
          std::ranges::all_of(field.open, [](double open) { return open >= 0 && open <= 1; }));
+    need(is_sound(field.inside, p.substance[k].has_membranes(), p.grid.n_voxel()));
     need(field.concentration.size() == p.grid.n_voxel() &&
          std::ranges::all_of(field.concentration, [](double c) { return std::isfinite(c); }));
     for (const double amount : {field.secreted, field.entered, field.supplied, field.decayed})
@@ -89,6 +142,9 @@ io::FieldFrame make_field_frame(const coupling::World& world, double time) {
     const std::vector<double>& open = world.state.substance[k].open;
     if (!open.empty())
       frame.field.push_back({p.substance[k].name + "_open", "1", {open.begin(), open.end()}});
+    if (p.substance[k].has_membranes())
+      frame.field.push_back({p.substance[k].name + "_mean", p.substance[k].unit,
+                             mean_of_voxels(p.grid, world.state.substance[k])});
   }
   return frame;
 }

@@ -67,6 +67,8 @@ inline constexpr const char* kChoices<coupling::InhibitedBy> = "none|pressure|vo
 template <>
 inline constexpr const char* kChoices<substances::FaceKind> = "no_flux|fixed|exchange";
 template <>
+inline constexpr const char* kChoices<CellPassage> = "pass|keep_out|membrane";
+template <>
 inline constexpr const char* kChoices<BoxFace> = "x_low|x_high|y_low|y_high|z_low|z_high";
 template <>
 inline constexpr const char* kChoices<coupling::Behaviour> = "growth|death|motility|chemotaxis";

@@ -125,9 +125,18 @@ void describe_substance(Visitor& v, SubstanceBlock& b) {
          {.name = "cells",
           .meaning = "pass: it diffuses through cells; keep_out: around them only. Concentrations "
                      "are then those of the space between cells, which exchange it through their "
-                     "surface",
-          .choices = "pass|keep_out"},
-         b.outside_cells);
+                     "surface. membrane: also inside cells, through membranes with a permeability; "
+                     "cells exchange it inside"},
+         b.cells);
+  v.when(b.cells == CellPassage::kMembrane, "cells = membrane", [&b](Visitor& w) {
+    w.real({.name = "permeability",
+            .meaning = "of the membranes of cells: flux per area and difference of concentration",
+            .dimension = kSpeed,
+            .unit = "um/s",
+            .range = kPositive,
+            .required = true},
+           b.permeability);
+  });
   choice(v,
          {.name = "obstacles",
           .meaning = "pass: it diffuses through walls, vessels and static meshes; keep_out: around "

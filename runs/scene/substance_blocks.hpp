@@ -32,6 +32,9 @@ struct VesselFeed {
   double permeability = 0;  ///< um/s
 };
 
+/// Way of a substance through cells: through them freely, around them, through their membranes.
+enum class CellPassage { kPass, kKeepOut, kMembrane };
+
 struct SubstanceBlock {
   std::string name;
   std::string unit = coupling::Substance{}.unit;
@@ -43,8 +46,10 @@ struct SubstanceBlock {
   std::vector<FaceEntry> faces;
   std::vector<SourceEntry> sources;
   std::optional<VesselFeed> vessels;
-  bool outside_cells = false;      ///< kept out of cells
+  CellPassage cells = CellPassage::kPass;
+  double permeability = 0;         ///< um/s, of membranes
   bool outside_obstacles = false;  ///< kept out of walls, vessels and static meshes
+  bool outside_cells() const { return cells != CellPassage::kPass; }
 };
 
 struct SubstanceGridBlock {

@@ -112,7 +112,11 @@ OrderedJson list_substances(const coupling::World& world) {
   const coupling::SubstanceParams& p = world.params.substances;
   for (std::size_t k = 0; k < p.substance.size(); ++k) {
     const coupling::SubstanceState& field = world.state.substance[k];
-    const auto [low, high] = std::ranges::minmax(field.concentration);
+    auto [low, high] = std::ranges::minmax(field.concentration);
+    for (const double c : field.inside.concentration) {
+      low = std::min(low, c);
+      high = std::max(high, c);
+    }
     list[p.substance[k].name] = {{"unit", p.substance[k].unit},
                                  {"lowest", finite_number(low)},
                                  {"highest", finite_number(high)},

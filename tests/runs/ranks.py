@@ -30,6 +30,7 @@ CASES = {
     "hybrid": [os.path.join(SCENES, "lobule_hybrid.json"), "--set", "start_up.growth_time=2 h", "--set",
                "output.contacts=true", "--until", "10 min"],
     "substances": [os.path.join(GOLDEN, "substances.json"), "--until", "1 h"],
+    "membranes": [os.path.join(GOLDEN, "membranes.json"), "--until", "1 h"],
     "life": [os.path.join(GOLDEN, "hybrid_life.json")],
     "zoom": [os.path.join(GOLDEN, "moving_zoom.json")],
     "maugis_hybrid": [os.path.join(GOLDEN, "maugis_hybrid.json"), "--until", "15 min", "--set", "output.contacts=true"],

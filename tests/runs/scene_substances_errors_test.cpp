@@ -41,7 +41,7 @@ TEST(SceneSubstances, KeysAreRead) {
   EXPECT_DOUBLE_EQ(drug.decay, 1e-4);
   EXPECT_EQ(drug.boundary.kind, substances::FaceKind::kExchange);
   EXPECT_EQ(drug.faces.at(0).side, BoxFace::kZHigh);
-  EXPECT_TRUE(drug.outside_cells);
+  EXPECT_TRUE(drug.outside_cells());
   EXPECT_FALSE(drug.outside_obstacles);
   EXPECT_EQ(scene.substance_grid.step, 60);
   EXPECT_DOUBLE_EQ(scene.rules.at(0).rate, 1e-3);

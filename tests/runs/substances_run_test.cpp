@@ -58,45 +58,57 @@ class SubstancesRun : public ProgramTest {
                     R"(moving_zoom={"every": "30 min", "stay": "30 min"})"};
 };
 
-/// The same tissue, its substances kept out of cells and obstacles.
-std::string around_cells() {
+/// Keys of oxygen and of the signal around cells, and through their membranes.
+struct Passage {
+  std::string oxygen, signal;
+};
+const Passage kPassages[] = {{R"("cells": "keep_out")", R"("cells": "keep_out")"},
+                             {R"("cells": "membrane", "permeability": "20 um/s")",
+                              R"("cells": "membrane", "permeability": "0.05 um/s")"}};
+
+/// The same tissue; the signal is also kept out of obstacles.
+std::string around_cells(const Passage& passage) {
   std::string text = kTissue;
   for (const auto& [name, keys] :
-       {std::pair{R"("name": "oxygen",)", R"( "cells": "keep_out",)"},
-        std::pair{R"("name": "signal",)", R"( "cells": "keep_out", "obstacles": "keep_out",)"}})
+       {std::pair{R"("name": "oxygen",)", " " + passage.oxygen + ","},
+        std::pair{R"("name": "signal",)", " " + passage.signal + R"(, "obstacles": "keep_out",)"}})
     text.insert(text.find(name) + std::string(name).size(), keys);
   return text;
 }
 
 TEST_F(SubstancesRun, AroundCellsResumedIsBitForBit) {
-  write("tissue.json", around_cells());
-  const Json end = finish("whole", zoom_);
-  EXPECT_GE(end["cells"]["divisions"], 3);
-  finish("parts", with({"--until", "40 min"}, zoom_));
-  finish("parts", with({"--resume"}, zoom_));
-  expect_same("whole", "parts");
-  EXPECT_TRUE(io::read_text_file(path("whole/fields/frame_000005.vtkhdf")) ==
-              io::read_text_file(path("parts/fields/frame_000005.vtkhdf")));
+  for (const Passage& passage : kPassages) {
+    write("tissue.json", around_cells(passage));
+    const Json end = finish("whole", with({"--overwrite"}, zoom_));
+    EXPECT_GE(end["cells"]["divisions"], 3);
+    finish("parts", with({"--overwrite", "--until", "40 min"}, zoom_));
+    finish("parts", with({"--resume"}, zoom_));
+    expect_same("whole", "parts");
+    EXPECT_TRUE(io::read_text_file(path("whole/fields/frame_000005.vtkhdf")) ==
+                io::read_text_file(path("parts/fields/frame_000005.vtkhdf")));
+  }
 }
 
 TEST_F(SubstancesRun, AroundCellsThreadsDoNotMatterAndAmountsBalance) {
-  write("tissue.json", around_cells());
-  const Words fine = with({"--set", "substance_grid.spacing=4 um"}, zoom_);
-  const Json start = finish("start", with({"--until", "5 s"}, fine));
-  const Json one = finish("one", with({"--threads", "1", "--until", "2 h"}, fine));
-  const Json two = finish("two", with({"--threads", "2", "--until", "2 h"}, fine));
-  EXPECT_EQ(one["state_hash"], two["state_hash"]);
-  for (const auto& [name, now] : one["substances"].items()) {
-    const Json& then = start["substances"][name];
-    double sum = 0;
-    for (const char* gain : {"secreted_um3", "through_faces_um3", "from_sources_um3"})
-      sum += now[gain].get<double>() - then[gain].get<double>();
-    sum -= now["decayed_um3"].get<double>() - then["decayed_um3"].get<double>();
-    const double amount = now["amount_um3"];
-    EXPECT_NEAR(amount - then["amount_um3"].get<double>(), sum,
-                1e-11 * (amount + std::abs(now["through_faces_um3"].get<double>())))
-        << name;
-    EXPECT_GE(now["lowest"], 0);
+  for (const Passage& passage : kPassages) {
+    write("tissue.json", around_cells(passage));
+    const Words fine = with({"--overwrite", "--set", "substance_grid.spacing=4 um"}, zoom_);
+    const Json start = finish("start", with({"--until", "5 s"}, fine));
+    const Json one = finish("one", with({"--threads", "1", "--until", "2 h"}, fine));
+    const Json two = finish("two", with({"--threads", "2", "--until", "2 h"}, fine));
+    EXPECT_EQ(one["state_hash"], two["state_hash"]);
+    for (const auto& [name, now] : one["substances"].items()) {
+      const Json& then = start["substances"][name];
+      double sum = 0;
+      for (const char* gain : {"secreted_um3", "through_faces_um3", "from_sources_um3"})
+        sum += now[gain].get<double>() - then[gain].get<double>();
+      sum -= now["decayed_um3"].get<double>() - then["decayed_um3"].get<double>();
+      const double amount = now["amount_um3"];
+      EXPECT_NEAR(amount - then["amount_um3"].get<double>(), sum,
+                  1e-11 * (amount + std::abs(now["through_faces_um3"].get<double>())))
+          << name;
+      EXPECT_GE(now["lowest"], 0);
+    }
   }
 }
 

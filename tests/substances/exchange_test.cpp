@@ -62,6 +62,95 @@ TEST(Exchange, BallWithUptakeFollowsItsThieleModulus) {
   }
 }
 
+/// Root mean square error in a slab of cells between two faces that hold 1: cosh(p x / L) /
+/// cosh(p).
+double slab_error(double thiele, int n) {
+  constexpr double kHalf = 50;  // L
+  const VoxelGrid g = make_grid({Vec3(-kHalf, 0, 0), Vec3(kHalf, 30, 30)}, 2 * kHalf / n + 1e-9);
+  Medium m;
+  m.diffusion = 10;
+  m.face[0] = m.face[1] = {FaceKind::kFixed, 1, 0};
+  Exchange e;
+  e.uptake = m.diffusion * thiele * thiele / kHalf / kHalf;
+  const BoxMesh box = box_mesh(g.low, g.high());
+  Shares shares;
+  shares.add(share_surface(g, box.node, box.triangle));
+  std::vector<double> c(g.n_voxel(), 0.0);
+  run(g, m, {shares, {&e, 1}}, {kSteady, 0, kTight}, c);
+  const auto exact = [=](const Vec3& x) {
+    return std::cosh(thiele * x.x() / kHalf) / std::cosh(thiele);
+  };
+  return mean_error(g, c, exact, [](const Vec3&) { return true; });
+}
+
+TEST(Exchange, SlabWithUptakeFollowsItsThieleModulus) {
+  for (const double thiele : {0.5, 2.0, 4.0}) {
+    const double coarse = slab_error(thiele, 40), fine = slab_error(thiele, 80);
+    std::printf("slab, Thiele modulus %.1f: errors %.2e, %.2e: order %.2f\n", thiele, coarse, fine,
+                std::log2(coarse / fine));
+    EXPECT_LT(fine, 1e-3);
+    EXPECT_NEAR(std::log2(coarse / fine), 2, 0.15);
+  }
+}
+
+/// A spheroid of cells that consume oxygen at a constant rate as long as there is any. Theory: in
+/// the rim c = q (r^2 + 2 a^3 / r - 3 a^2) / (6 D), zero with its slope at the radius a of the
+/// core; outside c falls as 1 / r.
+TEST(Exchange, SpheroidHasItsViableRim) {
+  constexpr double kCellRadius = 12, kSpacing = 22, kDiffusion = 2000, kRate = 20, kSurface = 38;
+  constexpr double kReach = 290;
+  Shares shares;
+  const VoxelGrid g = make_grid({Vec3::Constant(-450), Vec3::Constant(450)}, 10);
+  int n = 0;
+  constexpr int kMost = static_cast<int>(kReach / kSpacing);
+  for (int k = -kMost; k <= kMost; ++k)
+    for (int j = -kMost; j <= kMost; ++j)
+      for (int i = -kMost; i <= kMost; ++i)
+        if (const Vec3 x = kSpacing * Vec3(i, j, k); x.norm() <= kReach) {
+          shares.add(share_sphere(g, x, kCellRadius));
+          ++n;
+        }
+  const double cell = kSpacing * kSpacing * kSpacing,
+               radius = std::cbrt(3 * n * cell / (4 * kPi)),  // of the spheroid
+      rate = kRate * sphere_volume(kCellRadius) / cell;       // q, mean over the tissue
+  const auto surface = [&](double a) {  // concentration at the surface with a core of radius a
+    return rate * (radius * radius + 2 * a * a * a / radius - 3 * a * a) / (6 * kDiffusion);
+  };
+  double core = 0, beyond = radius;
+  while (beyond - core > 1e-6) {
+    const double middle = 0.5 * (core + beyond);
+    (surface(middle) > kSurface ? core : beyond) = middle;
+  }
+  const double outflow = rate * (std::pow(radius, 3) - std::pow(core, 3)) / (3 * kDiffusion);
+  Medium m;
+  m.diffusion = kDiffusion;
+  constexpr double kHold = 1e6;  // 1/s
+  m.gain.assign(g.n_voxel(), 0.0);
+  m.loss.assign(g.n_voxel(), 0.0);
+  std::size_t v = 0;
+  for (int k = 0; k < g.n[2]; ++k)
+    for (int j = 0; j < g.n[1]; ++j)
+      for (int i = 0; i < g.n[0]; ++i, ++v)
+        if (const double r = g.center(i, j, k).norm(); r > 1.4 * radius) {
+          m.loss[v] = kHold;
+          m.gain[v] = kHold * (kSurface + outflow * (1 / radius - 1 / r));
+        }
+  Exchange e;
+  e.uptake_max = kRate;
+  e.half_max = 0.1;
+  const std::vector<Exchange> exchange(shares.n_body(), e);
+  std::vector<double> c(g.n_voxel(), kSurface), gained(shares.n_body(), 0.0);
+  EXPECT_TRUE(run(g, m, {shares, exchange}, {1e6, 0, 1e-8}, c, gained).converged);
+  int viable = 0;
+  for (std::size_t b = 0; b < shares.n_body(); ++b)
+    if (mean_over(shares.of(b), c) > e.half_max) ++viable;
+  const double found = std::cbrt(std::pow(radius, 3) - 3 * viable * cell / (4 * kPi));
+  std::printf("spheroid of %.0f um: rim %.1f um, theory %.1f um (%+.1f %%)\n", radius,
+              radius - found, radius - core, 100 * ((radius - found) / (radius - core) - 1));
+  EXPECT_GT(core, 0.3 * radius);
+  EXPECT_NEAR(radius - found, radius - core, 0.05 * (radius - core));
+}
+
 /// One voxel without diffusion, filled to a half by a body.
 struct OneVoxel {
   VoxelGrid grid = make_grid({Vec3::Zero(), Vec3::Constant(10)}, 10);
