@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -39,7 +40,8 @@ inline std::vector<BlockRun> find_own_runs(const Ownership& o, std::size_t n) {
 /// Processes that get gathered values.
 enum class Receivers { kAll, kRoot };
 
-/// Gathers values of items that are computed by one process each, in the order of the items.
+/// Gathers values of items that are computed by one process each, in the order of the items, 8 MB
+/// at a time.
 /// @param owner  owner(k): rank of item k < n
 /// @param count  count(k): its number of values
 /// @param own    values of own items
@@ -49,21 +51,33 @@ void gather_in_order(const Ranks& ranks, std::size_t n, const Owner& owner, cons
                      const std::vector<T>& own, std::vector<T>& all,
                      Receivers receivers = Receivers::kAll,
                      Ranks::Place place = Ranks::Place::current()) {
+  constexpr std::size_t kMostBytes = 8 << 20;
+  const bool at_root = receivers == Receivers::kRoot, receives = !at_root || ranks.is_root();
+  std::size_t n_all = 0;
+  for (std::size_t k = 0; k < n; ++k) n_all += count(k);
+  all.clear();
+  if (receives) all.reserve(n_all);
   std::vector<T> by_rank;
   std::vector<std::size_t> next;
-  const bool at_root = receivers == Receivers::kRoot;
-  if (at_root)
-    ranks.gather_at_root<T>(own, by_rank, &next, place);
-  else
-    ranks.gather<T>(own, by_rank, &next, place);
-  all.clear();
-  if (at_root && !ranks.is_root()) return;
-  all.reserve(by_rank.size());
-  for (std::size_t k = 0; k < n; ++k) {
-    std::size_t& from = next[owner(k)];
-    const auto first = by_rank.begin() + static_cast<std::ptrdiff_t>(from);
-    from += count(k);
-    all.insert(all.end(), first, by_rank.begin() + static_cast<std::ptrdiff_t>(from));
+  std::size_t sent = 0;
+  for (std::size_t first = 0, last = 0; first < n; first = last) {
+    std::size_t n_here = 0, n_own = 0;
+    do {
+      n_here += count(last);
+      n_own += owner(last) == ranks.rank() ? count(last) : 0;
+    } while (++last < n && (n_here + count(last)) * sizeof(T) <= kMostBytes);
+    const std::span<const T> part = std::span(own).subspan(sent, n_own);
+    sent += n_own;
+    if (at_root)
+      ranks.gather_at_root<T>(part, by_rank, &next, place);
+    else
+      ranks.gather<T>(part, by_rank, &next, place);
+    for (std::size_t k = first; k < last && receives; ++k) {
+      std::size_t& from = next[owner(k)];
+      const auto begin = by_rank.begin() + static_cast<std::ptrdiff_t>(from);
+      from += count(k);
+      all.insert(all.end(), begin, by_rank.begin() + static_cast<std::ptrdiff_t>(from));
+    }
   }
 }
 

@@ -15,7 +15,7 @@
 namespace acinus::dcm {
 
 /// Sizes the rank-one families in use (volume, area, the same of nuclei, further ones; in this
-/// order); empty if there are none.
+/// order); empty if there are none. Their numbers have no values before solve::clear_loads.
 /// @param n_further  families of loads from outside the cells
 void size_rank_one(const State& state, std::span<const Params> params, solve::System& system,
                    std::size_t n_further = 0);

@@ -19,7 +19,7 @@ namespace {
 // contacts a third of it.
 constexpr double kBytesPerNode = 450, kBytesPerSphere = 900;
 /// Part of it that every process has of all cells, by `acinus-bench rank-memory`: the state.
-constexpr double kBytesPerNodeEverywhere = 90, kBytesPerSphereEverywhere = 350;
+constexpr double kBytesPerNodeEverywhere = 90, kBytesPerSphereEverywhere = 270;
 /// Memory of a branch point, bytes: its nodes, segments, wall and search grids.
 constexpr double kBytesPerBranch = 2000;
 

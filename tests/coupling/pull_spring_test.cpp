@@ -21,6 +21,7 @@ using Springs = std::array<PullSpring, kLanes>;
 Cells make_cells() {
   Cells c = make_deformed_cells();
   size_rank_one(c.state, {}, c.system, 1);
+  solve::clear_loads(c.system);
   return c;
 }
 

@@ -299,6 +299,7 @@ TEST(Terms, TypesWithDifferentElementsShareASystem) {
     c.lanes = make_lane_data(c.state, 0);
     solve::set_blocks(c.system, make_blocks(c.state, params));
     size_rank_one(c.state, params, c.system);
+    solve::clear_loads(c.system);
     const std::vector<double> free_area(c.state.n_row() * kLanes, 0.01);
     const std::vector<Vec3> cell_force(c.state.n_lane(), Vec3::Zero());
     add_loads(c.state, params, c.lanes, free_area, cell_force, c.system);

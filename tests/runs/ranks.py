@@ -206,6 +206,7 @@ def check_errors(program):
         os.mkdir(os.path.join(folder, "here"))
         open(os.path.join(folder, "here", "run.vtkhdf"), "w").close()
         expect(2, ["run", "two_cells", "--out", os.path.join(folder, "here")], 2, "holds the results of an earlier run")
+        expect(2, ["run", "clump13", "--out", out, "--max-memory", "0.1MB"], 2, "of memory in every process where")
         # As if started by a launcher that this MPI does not know: PMI of MPICH, srun without --mpi.
         for name in ("PMI_SIZE", "SLURM_STEP_NUM_TASKS"):
             expect(1, ["run", "two_cells", "--out", out], 3, "one of 4 processes that were started together",
