@@ -102,6 +102,7 @@ int run_cli(int argc, const char* const* argv) {
                               add_infer(app),
                               add_serve(app),
                               add_openvt(app, command_line),
+                              add_permedcoe(app, command_line),
                               add_bench(app)};
   const std::string first = argc > 1 ? argv[1] : "";
   if (first == "help" && argc == 2) {

@@ -94,6 +94,7 @@ Command add_list(CLI::App& app);
 Command add_mesh(CLI::App& app);
 Command add_new(CLI::App& app);
 Command add_openvt(CLI::App& app, const std::string& command_line);
+Command add_permedcoe(CLI::App& app, const std::string& command_line);
 Command add_report(CLI::App& app);
 Command add_run(CLI::App& app, const std::string& command_line);
 Command add_serve(CLI::App& app);

@@ -44,14 +44,27 @@ int grow(const runs::OpenVtOptions& o) {
   return code;
 }
 
+int sort(const std::string& what, const runs::OpenVtOptions& o) {
+  runs::MixedShare found;
+  const int code = runs::run_sorting(what, o, found);
+  if (code == 0 && !o.quiet)
+    fmt::print(
+        "contacts of unlike cells: {:.3f} of all at the start, {:.3f} after {:.0f} units of "
+        "time\n",
+        found.mixed.front(), found.mixed.back(), found.time.back());
+  return code;
+}
+
 int run(OpenVtArguments& a) {
   a.openvt.model =
       static_cast<runs::CellModel>(runs::choice_index(runs::kChoices<runs::CellModel>, a.model));
   const WallTimeLimit limit(read_wall_time_limit(a.max_walltime));
   check(a.what == "monolayer" || !a.openvt.cells,
-        "--cells is for monolayer: a row has eleven cells. Leave it out.");
+        "--cells is for monolayer: the others have a fixed number. Leave it out.");
   if (a.openvt.out.empty()) a.openvt.out = fmt::format("openvt_{}_{}.run", a.what, a.model);
-  const int code = a.what == "relax11" ? relax(a.openvt) : grow(a.openvt);
+  const int code = a.what == "relax11"     ? relax(a.openvt)
+                   : a.what == "monolayer" ? grow(a.openvt)
+                                           : sort(a.what, a.openvt);
   const std::string again = without_flag(a.openvt.command_line, "--overwrite");
   return print_how_to_continue(code, again + (a.openvt.resume ? "" : " --resume"), a.openvt.quiet);
 }
@@ -65,9 +78,10 @@ Command add_openvt(CLI::App& app, const std::string& command_line) {
   runs::OpenVtOptions& o = arguments->openvt;
   command
       ->add_option("WHAT", arguments->what,
-                   "relax11: a row of eleven cells; monolayer: a thousand cells from one")
+                   "relax11: a row of eleven cells; monolayer: a thousand cells from one; sorting, "
+                   "engulfment, checkerboard: two types of cells in a layer")
       ->required()
-      ->check(CLI::IsMember({"relax11", "monolayer"}));
+      ->check(CLI::IsMember({"relax11", "monolayer", "sorting", "engulfment", "checkerboard"}));
   command->add_option("--model", arguments->model, "dcm: deformable cells; cbm: spheres (default)")
       ->type_name("MODEL")
       ->check(CLI::IsMember({"dcm", "cbm"}));

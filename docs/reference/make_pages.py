@@ -41,7 +41,8 @@ MORE = {  # command -> page
     "run": "../howto/restart.md", "explain": "scene_keys.md", "mesh": "../howto/images.md", "import": "../howto/images.md",
     "voxelise": "../howto/images.md", "calibrate": "../science/calibration.md", "compare": "../howto/compare.md",
     "report": "../howto/report.md", "study": "../howto/study.md", "infer": "../howto/inference.md", "serve": "../howto/service.md",
-    "openvt": "../howto/exchange.md", "bench": "../developers/profiling.md",
+    "openvt": "../science/community_benchmarks.md", "permedcoe": "../science/community_benchmarks.md",
+    "bench": "../developers/profiling.md",
 }
 
 

@@ -88,7 +88,9 @@ class Run:
 
         Raises NoSuchItem where the scene does not ask for them with output.contacts.
         """
-        if not self.scene.get("output", {}).get("contacts"):
+        with open_run_file(self.file) as file:
+            n = int(file["contacts/frame_offset"][_count_frames(file)]) if "contacts" in file else 0
+        if n == 0 and not self.scene.get("output", {}).get("contacts"):  # a resumed run may have them all the same
             raise NoSuchItem(f"{self.file}: has no contacts. Run the scene with --set output.contacts=true.")
         return make_table(*self._ragged("contacts", frame))
 

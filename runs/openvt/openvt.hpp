@@ -1,5 +1,5 @@
 #pragma once
-/// First reference models of OpenVT, with results in its exchange format. [OpenVT:
+/// Reference models of OpenVT, with results in its exchange formats. [OpenVT:
 /// https://www.openvt.org]
 
 #include <optional>
@@ -61,5 +61,18 @@ struct Layer {
 /// @param found  filled, and the result file written, if both runs complete
 /// @return exit code of the last run
 int run_monolayer(const OpenVtOptions& options, Layer& found);
+
+/// Share of the pairs of cells in contact whose types differ, over time.
+struct MixedShare {
+  std::vector<double> time;   ///< in the workshop's unit: an isolated cell moves its diameter
+                              ///< squared, in the mean of squares, in a hundred of them
+  std::vector<double> mixed;  ///< [frame]
+};
+
+/// Runs openvt_sorting, openvt_engulfment or openvt_checkerboard, of OpenVT's workshop of 2026.
+/// @param what   the scene's name without openvt_
+/// @param found  filled, and the result file written, if the run completes
+/// @return exit code of the run
+int run_sorting(const std::string& what, const OpenVtOptions& options, MixedShare& found);
 
 }  // namespace acinus::runs
