@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <numeric>
 #include <unordered_map>
 
 #include "core/error.hpp"
@@ -63,7 +65,10 @@ int run_sorting(const std::string& what, const OpenVtOptions& options, MixedShar
     const auto &id = id_column(frame.cells, "id", options.out),
                &kind = id_column(frame.cells, "type", options.out);
     const std::vector<double>& center = cell_column(frame.cells, "center", options.out);
-    for (std::size_t c = 0; c < id.size(); ++c)
+    std::vector<std::size_t> by_id(id.size());
+    std::iota(by_id.begin(), by_id.end(), std::size_t{0});
+    std::ranges::sort(by_id, {}, [&id](std::size_t c) { return id[c]; });
+    for (const std::size_t c : by_id)
       text += fmt::format("0,{},{},{},{},{}\n", found.time.back(), id[c], kind[c],
                           center[3 * c] / diameter, center[3 * c + 1] / diameter);
   }
