@@ -1,5 +1,6 @@
 #include "core/parallel/ranks.hpp"
 
+#include <fmt/format.h>
 #include <mpi.h>
 
 #include <algorithm>
@@ -261,8 +262,7 @@ std::vector<TrafficPlace> Ranks::traffic_by_place() {
   std::map<std::string, TrafficPlace> by_name;
   for (const auto& [at, counts] : g_places) {
     const std::string_view file = at.first;
-    const std::string name =
-        std::string(file.substr(file.rfind('/') + 1)) + ":" + std::to_string(at.second);
+    const std::string name = fmt::format("{}:{}", file.substr(file.rfind('/') + 1), at.second);
     TrafficPlace& sum = by_name[name];
     sum.place = name;
     sum.calls += counts.calls;

@@ -151,13 +151,14 @@ class Ranks {
   Ranks(int rank, int size, int communicator)
       : rank_(rank), size_(size), communicator_(communicator) {}
   template <class T>
-  void gather_from(std::span<const T> own, std::vector<T>& all, std::vector<std::size_t>* start,
-                   bool at_root, const Place& place) const {
+  [[gnu::noinline]] void gather_from(  // g++ 12 warns of inlined vectors
+      std::span<const T> own, std::vector<T>& all, std::vector<std::size_t>* start, bool at_root,
+      const Place& place) const {
     const std::vector<std::size_t> bytes = gather_sizes(own.size_bytes());
-    const std::size_t received = at_root && !is_root() ? 0 : bytes.back();
-    all.resize(received / sizeof(T));
+    all.clear();
+    if (!at_root || is_root()) all.resize(bytes.back() / sizeof(T));
     gather_bytes(own.data(), bytes, at_root, all.data());
-    count_gathering(own.size_bytes(), received, place);
+    count_gathering(own.size_bytes(), all.size() * sizeof(T), place);
     if (start == nullptr) return;
     start->clear();
     for (const std::size_t b : bytes) start->push_back(b / sizeof(T));

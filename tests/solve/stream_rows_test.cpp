@@ -16,11 +16,11 @@ double value_of(std::size_t k) { return 0.5 + static_cast<double>(k); }
 
 /// Rows of blocks of one and of five points, of random owners.
 System make_system(const BlockPattern& one, const BlockPattern& five, std::uint64_t seed) {
-  constexpr std::size_t kBlocks = 40;
+  constexpr std::size_t kBlockCount = 40;
   System s;
   s.ownership.ranks = Ranks::world();
   std::mt19937_64 random(seed);
-  std::vector<Block> blocks(kBlocks);
+  std::vector<Block> blocks(kBlockCount);
   for (Block& b : blocks) {
     b.pattern = random() % 2 == 0 ? &one : &five;
     const auto n = static_cast<unsigned>(s.ownership.ranks.size());
