@@ -79,9 +79,12 @@ Balance measure_balance(const World& world, Workspace& w) {
                          add(conservative + rest, kForce, sum);
                          add(arm.cross(conservative), kTorque, sum);
                          add(arm.cross(rest), kRestTorque, sum);
-                         sum[kSizes] += conservative.norm() + rest.norm();
+                         // The rest is a difference and has the rounding of the forces of boundary
+                         // and medium, which may be all there are.
+                         const double others = load_point(w.cg.product.data(), a).norm();
+                         sum[kSizes] += conservative.norm() + rest.norm() + others;
                          sum[kSizes + 1] += arm.norm() * conservative.norm();
-                         sum[kSizes + 2] += arm.norm() * rest.norm();
+                         sum[kSizes + 2] += arm.norm() * (rest.norm() + others);
                        }
                        const int n_all = w.system.block[lane / kLanes].pattern->n_point;
                        for (int i = n_point; i < n_all; ++i) {  // moments on rotations

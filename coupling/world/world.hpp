@@ -121,7 +121,7 @@ struct Clock {
 
 /// Largest imbalance |sum| / sum |.| over all steps.
 struct Balance {
-  double momentum = 0;  ///< all pair forces, friction included
+  double momentum = 0;  ///< of all pair forces, friction included; over all forces
   double torque = 0;    ///< conservative pair forces
   double friction_torque =
       0;  ///< pair friction and changes of pair forces in a step, which need not balance

@@ -284,8 +284,8 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
   find_expired(in, lists);
   ListScratch& scratch = lists.scratch;
   const std::vector<std::size_t>&expired = scratch.expired, &segments = scratch.segments_expired;
-  lists.checked += static_cast<std::int64_t>(lists.pair.size());
-  lists.made += static_cast<std::int64_t>(expired.size());
+  lists.checked += static_cast<std::int64_t>(lists.pair.size() + lists.segment.size());
+  lists.made += static_cast<std::int64_t>(expired.size() + segments.size());
   if (expired.empty() && segments.empty()) return;
 
   const double range = in.options.range;

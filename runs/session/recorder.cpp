@@ -121,7 +121,7 @@ Excess Recorder::write_frame(bool last) {
       drawn_boundary_ = draw_boundary(world.params.boundary);
     io::Frame frame = make_frame(world, work, snapshot, drawn_boundary_);
     add_concentrations(world, snapshot, frame.cells);
-    frame.contacts = std::move(contacts);
+    if (scene_.output.contacts) frame.contacts = std::move(contacts);
     file_->append(frame, observables);
   }
   write_fields(snapshot.time);

@@ -246,10 +246,10 @@ TEST(Checks, JudgeOverlapsOfSpheresInTheirRadii) {
       if (!check["pass"].get<bool>()) names += check["name"].get<std::string>() + ";";
     return names;
   };
-  EXPECT_EQ(failed(5.9, 2.9, 0), "");
-  EXPECT_NE(failed(6.1, 2.9, 0).find("two spheres"), std::string::npos);
-  EXPECT_EQ(failed(6.1, 2.9, 3), "") << "sisters start deep in each other";
-  EXPECT_NE(failed(5.9, 3.1, 3).find("vessel"), std::string::npos);
+  EXPECT_EQ(failed(5.9, 4.7, 0), "");
+  EXPECT_NE(failed(6.1, 4.7, 0).find("two spheres"), std::string::npos);
+  EXPECT_EQ(failed(6.1, 4.7, 3), "") << "sisters start deep in each other";
+  EXPECT_NE(failed(5.9, 4.9, 3).find("vessel"), std::string::npos);
 }
 
 }  // namespace
