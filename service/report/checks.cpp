@@ -37,8 +37,8 @@ struct SphereCheck {
   double limit;
 };
 constexpr std::array kSphereChecks{
-    SphereCheck{"largest overlap of two spheres (half a radius, as deformable cells)", "/max_overlap_cbm_um",
-                runs::kSphereOverlap},
+    SphereCheck{"largest overlap of two spheres (half a radius, as deformable cells)",
+                "/max_overlap_cbm_um", runs::kSphereOverlap},
     SphereCheck{"largest overlap of a sphere with a vessel (0.4 radii, as deformable cells)",
                 "/overlap_of_spheres_um/cbm_vessel", runs::kVesselOverlap},
 };

@@ -27,7 +27,8 @@ TEST(ContactLists, OldListsGiveWhatNewListsGive) {
     const auto force = c.node_force();
     Clump fresh = c;
     fresh.find_afresh();
-    EXPECT_EQ(fresh.work.lists.made, fresh.work.lists.pair.size());
+    EXPECT_EQ(fresh.work.lists.made,
+              fresh.work.lists.pair.size() + fresh.work.lists.segment.size());
     EXPECT_EQ(features, features_of(fresh));
     EXPECT_EQ(gap, gaps_of(fresh));
     EXPECT_EQ(force, fresh.node_force());
@@ -50,7 +51,7 @@ TEST(ContactLists, OnlyListsOfACellThatMovedAreMade) {
     return (p.body_a == 3) != (p.body_b == 3);
   });
   EXPECT_GT(with_it, 0);
-  EXPECT_EQ(c.work.lists.made, made + with_it);
+  EXPECT_EQ(c.work.lists.made, made + with_it + 1) << "and its list of vessels";
   Clump fresh = c;
   fresh.find_afresh();
   EXPECT_EQ(features_of(c), features_of(fresh));
