@@ -6,17 +6,11 @@
 #include <cmath>
 #include <memory>
 
-#include "cli/command.hpp"
-#include "cli/wall_time.hpp"
-#include "core/parallel/stop.hpp"
+#include "cli/published_case.hpp"
+#include "core/error.hpp"
 
 namespace acinus::cli {
 namespace {
-
-struct OpenVtArguments {
-  runs::OpenVtOptions openvt;
-  std::string what, model = "cbm", max_walltime;
-};
 
 int relax(const runs::OpenVtOptions& o) {
   runs::RowLength row;
@@ -55,18 +49,10 @@ int sort(const std::string& what, const runs::OpenVtOptions& o) {
   return code;
 }
 
-int run(OpenVtArguments& a) {
-  a.openvt.model =
-      static_cast<runs::CellModel>(runs::choice_index(runs::kChoices<runs::CellModel>, a.model));
-  const WallTimeLimit limit(read_wall_time_limit(a.max_walltime));
-  check(a.what == "monolayer" || !a.openvt.cells,
+int run_openvt(const std::string& what, const runs::OpenVtOptions& o) {
+  check(what == "monolayer" || !o.cells,
         "--cells is for monolayer: the others have a fixed number. Leave it out.");
-  if (a.openvt.out.empty()) a.openvt.out = fmt::format("openvt_{}_{}.run", a.what, a.model);
-  const int code = a.what == "relax11"     ? relax(a.openvt)
-                   : a.what == "monolayer" ? grow(a.openvt)
-                                           : sort(a.what, a.openvt);
-  const std::string again = without_flag(a.openvt.command_line, "--overwrite");
-  return print_how_to_continue(code, again + (a.openvt.resume ? "" : " --resume"), a.openvt.quiet);
+  return what == "relax11" ? relax(o) : what == "monolayer" ? grow(o) : sort(what, o);
 }
 
 }  // namespace
@@ -74,32 +60,22 @@ int run(OpenVtArguments& a) {
 Command add_openvt(CLI::App& app, const std::string& command_line) {
   CLI::App* command = add_command(app, "openvt", "reference models of OpenVT with their CSV",
                                   "acinus openvt relax11 --model dcm --csv row.csv");
-  const auto arguments = std::make_shared<OpenVtArguments>();
-  runs::OpenVtOptions& o = arguments->openvt;
+  const auto arguments = std::make_shared<CaseArguments>();
   command
       ->add_option("WHAT", arguments->what,
                    "relax11: a row of eleven cells; monolayer: a thousand cells from one; sorting, "
                    "engulfment, checkerboard: two types of cells in a layer")
       ->required()
       ->check(CLI::IsMember({"relax11", "monolayer", "sorting", "engulfment", "checkerboard"}));
-  command->add_option("--model", arguments->model, "dcm: deformable cells; cbm: spheres (default)")
-      ->type_name("MODEL")
-      ->check(CLI::IsMember({"dcm", "cbm"}));
-  command->add_option("--csv", o.csv, "CSV file in OpenVT's format")->type_name("FILE.csv");
-  command->add_option("--out", o.out, "folder of the runs (default: openvt_WHAT_MODEL.run)")
-      ->type_name("DIR");
-  command->add_option("--cells", o.cells, "monolayer: until there are so many (default: 1000)")
+  add_case_options(*command, "openvt", "CSV file in OpenVT's format", *arguments);
+  command
+      ->add_option("--cells", arguments->options.cells,
+                   "monolayer: until there are so many (default: 1000)")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000000));
-  add_set(*command, o.set);
-  add_threads(*command, o.threads);
-  add_wall_time_limit(*command, arguments->max_walltime);
-  CLI::Option* resume = command->add_flag("--resume", o.resume, "go on with what is in the folder");
-  command->add_flag("--overwrite", o.overwrite, "replace what is in the folder")->excludes(resume);
-  command->add_flag("--quiet", o.quiet, "warnings and errors only");
   return {command, [arguments, &command_line] {
-            arguments->openvt.command_line = command_line;
-            return cli::run(*arguments);
+            arguments->options.command_line = command_line;
+            return run_case("openvt", *arguments, run_openvt);
           }};
 }
 
