@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/sphere.hpp"
+#include "geometry/measures.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -43,10 +44,7 @@ double area_of(const State& s, const Cell& c) {
   }
   std::vector<Vec3> node;
   dcm::copy_nodes(s.dcm, c.at, node);
-  double sum = 0;
-  for (const auto& [i, j, k] : s.dcm.group[c.at / kLanes].topology->triangle)
-    sum += 0.5 * (node[j] - node[i]).cross(node[k] - node[i]).norm();
-  return sum;
+  return geometry::compute_area(node, s.dcm.group[c.at / kLanes].topology->triangle);
 }
 
 substances::Parts make_parts(const World& world, const std::vector<substances::Cover>& cover,
