@@ -208,18 +208,41 @@ void judge_in_place(const Judged& j, BenchTable& table) {
   }
 }
 
-void judge_by_themselves(const Judged& j, const std::string& law_file, int threads,
+/// Mean row of several seeds, with the standard deviations of what a law is judged by.
+BenchRow average(const std::vector<BenchRow>& seeds) {
+  BenchRow out = seeds.front();
+  const auto n = static_cast<double>(seeds.size());
+  std::vector<std::pair<std::string, double>> deviation{{"seeds", n}};
+  for (std::size_t k = 0; k < out.value.size(); ++k) {
+    auto& [key, mean] = out.value[k];
+    mean = 0;
+    for (const BenchRow& row : seeds) mean += row.value[k].second / n;
+    if (seeds.size() == 1 || !(key.ends_with("_Pa") || key.ends_with("_bias"))) continue;
+    double squares = 0;
+    for (const BenchRow& row : seeds) squares += std::pow(row.value[k].second - mean, 2);
+    deviation.emplace_back("sd_" + key, std::sqrt(squares / (n - 1)));
+  }
+  out.value.insert(out.value.end(), deviation.begin(), deviation.end());
+  return out;
+}
+
+/// Rows of spheres by themselves, without a law and with it.
+/// @param seeds  the same tissue from several seeds
+void judge_by_themselves(const std::vector<Judged>& seeds, const std::string& law_file, int threads,
                          BenchTable& table) {
-  const std::vector<JudgedFrame> frames = read_frames(j.deformable);
   struct SphereRun {
     const char* name;
     std::string law;
   };
   for (const SphereRun& r : {SphereRun{"plain", "none"}, SphereRun{"table", law_file}}) {
-    const std::string folder = fmt::format("{}_{}", j.deformable, r.name);
-    run(runs::as_spheres(j.scene, r.law), folder, threads);
-    table.push_back(
-        compare(fmt::format("{}, {}, by themselves", j.name, r.name), frames, read_frames(folder)));
+    std::vector<BenchRow> rows;
+    for (const Judged& j : seeds) {
+      const std::string folder = fmt::format("{}_{}", j.deformable, r.name);
+      run(runs::as_spheres(j.scene, r.law), folder, threads);
+      rows.push_back(compare(fmt::format("{}, {}, by themselves", j.name, r.name),
+                             read_frames(j.deformable), read_frames(folder)));
+    }
+    table.push_back(average(rows));
     print_row(table.back());
   }
 }
@@ -263,12 +286,17 @@ BenchTable bench_out_of_sample(const BenchOptions& options) {
   clump.laws = sphere_laws(law, runs::make_cbm_params(clump.scene, type).young);
   judge_in_place(clump, table);
   for (const OutOfSampleScene& s : out_of_sample_scenes(cells)) {
-    const std::string folder =
-        fmt::format("{}/{}_{:g}_{:g}", root, s.name, cells.radius, cells.stiffness);
-    run(s.scene, folder, options.threads);
-    Judged j{s.name, runs::as_spheres(s.scene, "none"), folder, clump.laws};
-    judge_in_place(j, table);
-    if (s.spheres_too) judge_by_themselves(j, root + "/law.json", options.threads, table);
+    std::vector<Judged> seeds;
+    for (int seed = options.first; seed < options.first + options.seeds; ++seed) {
+      runs::Scene scene = s.scene;
+      scene.seed = static_cast<std::uint64_t>(seed);
+      const std::string folder =
+          fmt::format("{}/{}_{:g}_{:g}_{}", root, s.name, cells.radius, cells.stiffness, seed);
+      run(scene, folder, options.threads);
+      seeds.push_back({s.name, runs::as_spheres(scene, "none"), folder, clump.laws});
+    }
+    judge_in_place(seeds.front(), table);
+    if (s.spheres_too) judge_by_themselves(seeds, root + "/law.json", options.threads, table);
   }
   return table;
 }
