@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "acinus_version.hpp"
@@ -56,6 +57,14 @@ std::string path_from_page(const std::string& folder, const std::string& page) {
   return to.lexically_relative(from).generic_string();
 }
 
+/// Names items of equal name by their whole path.
+void distinguish_names(OrderedJson& items) {
+  std::map<std::string, int> count;
+  for (const OrderedJson& item : items) ++count[item["name"].get<std::string>()];
+  for (OrderedJson& item : items)
+    if (count[item["name"].get<std::string>()] > 1) item["name"] = item["folder"];
+}
+
 }  // namespace
 
 std::string write_report(const ReportOptions& options) {
@@ -88,6 +97,7 @@ std::string write_report(const ReportOptions& options) {
     }
   }
   if (folders.size() > 1) data["comparison"] = describe_comparison(folders);
+  distinguish_names(data["items"]);
   check(options.titles.size() <= options.what.size(),
         fmt::format("--title: {} headlines for {} of what is shown. Leave some out.",
                     options.titles.size(), options.what.size()));

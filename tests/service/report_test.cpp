@@ -143,6 +143,17 @@ TEST(Report, ShowsWhatARunHolds) {
     EXPECT_FALSE(test::contains(text, from)) << from;
 }
 
+TEST(Report, NamesRunsOfEqualNameByTheirPath) {
+  const Folder f("report_names");
+  for (const char* run : {"/x/a.run", "/y/a.run", "/y/b.run"}) write_run(f.path + run, 1, 2);
+  const Json items =
+      data_of(write_report({.what = {f.path + "/x/a.run", f.path + "/y/a.run", f.path + "/y/b.run"},
+                            .out = f.path + "/a.html"}))["items"];
+  EXPECT_EQ(items[0]["name"], f.path + "/x/a.run");
+  EXPECT_EQ(items[1]["name"], f.path + "/y/a.run");
+  EXPECT_EQ(items[2]["name"], "b.run");
+}
+
 TEST(Report, KeepsItsSizeByLeavingOutFrames) {
   const Folder f("report_limit");
   write_run(f.path + "/a.run", 40, 400);

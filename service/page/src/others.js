@@ -9,13 +9,14 @@ const headline = (name, kind, word, ...badges) => make("div", { class: "headline
 const ENDINGS = [["_nN_per_um", "mN/m"], ["_kPa_per_um", "kPa/µm"], ["_kPa", "kPa"], ["_um", "µm"]];
 const CONSTANTS = { young: "Young's modulus", poisson: "Poisson ratio", cortex_young: "cortex, Young's modulus", cortex_poisson: "cortex, Poisson ratio", adhesion: "adhesion energy per area", nodes: "nodes per cell" };
 function constant(key, value) {
+  if (key === "adhesion_nN_per_um") return [CONSTANTS.adhesion, `${number(+(1e-3 * value).toPrecision(6))} J/m²`];
   const [ending, unit] = ENDINGS.find(([e]) => key.endsWith(e)) ?? ["", ""];
   const [factor, shown] = shownIn(unit);
   const name = key.slice(0, key.length - ending.length);
   return [CONSTANTS[name] ?? name.replaceAll("_", " "), typeof value === "number" ? `${number(+(factor * value).toPrecision(6))} ${shown}` : String(value)];
 }
 
-const LAW_CURVES = { dcm: "deformable cells", cbm: "spheres", jkr: "JKR", corrected: "spheres with this law" };
+const LAW_CURVES = { dcm: "deformable cells", cbm: "plain spheres", jkr: "JKR", cbm_corrected: "spheres with this law" };
 
 // Modulus and range of the overlap d as the law applies them: from its table, or from its power law.
 function rangesOf(l) {
@@ -30,7 +31,7 @@ export function law(item) {
   const l = item.law;
   const { modulus, overlap } = rangesOf(l);
   const plots = [];
-  if (l.table?.length) plots.push(plotXY("Contact modulus of the spheres", "Pa", "overlap over radius, d", [{ label: "modulus", time: l.table.map((p) => p.overlap), value: l.table.map((p) => 1000 * p.modulus_kPa), points: true }], { log: true }));
+  if (l.table?.length) plots.push(plotXY("Contact modulus of the spheres", "Pa", "relative overlap d", [{ label: "modulus", time: l.table.map((p) => p.overlap), value: l.table.map((p) => 1000 * p.modulus_kPa), points: true }], { log: true }));
   if (item.curves) {
     const forces = Object.entries(item.curves).filter(([, c]) => c?.overlap && (c.force ?? c.mean_force ?? c.force_nN));
     const sorted = forces.map(([name, c]) => {
@@ -38,13 +39,15 @@ export function law(item) {
       const order = c.overlap.map((_, k) => k).sort((a, b) => c.overlap[a] - c.overlap[b]);
       return { label: LAW_CURVES[name] ?? name.replaceAll("_", " "), time: order.map((k) => c.overlap[k]), value: order.map((k) => y[k]) };
     });
-    plots.push(plotXY("Mean contact force in the compressed clump", "nN", "overlap over radius, d", sorted));
+    plots.push(plotXY("Mean contact force in the compressed clump", "nN", "relative overlap d", sorted));
   }
   const figures = [
     ["Contact modulus", modulus ? span(modulus.map((m) => 1000 * m), " Pa") : `${number(1000 * l.a0_kPa)} Pa + ${number(1000 * l.a1_kPa)} Pa · d^${number(l.power)}`],
     overlap ? ["Range of d", span(overlap, "")] : null,
     l.r_squared == null ? null : ["R² of the fit", number(l.r_squared)],
     l.rms_relative == null ? null : ["Rms deviation", percent(l.rms_relative)],
+    l.wall_recess == null ? null : ["Recess at walls", `${number(+l.wall_recess.toPrecision(3))} of the radius`],
+    l.friction_share == null ? null : ["Friction, share of that of deformable cells", percent(l.friction_share)],
     l.jkr_underestimation == null ? null : ["Force over that of JKR", `${number(l.jkr_underestimation)} times`],
   ].filter((f) => f);
   const constants = (block, title) => (block ? make("div", {}, make("h3", {}, title), table(["constant", "value"], Object.entries(block).map(([k, v]) => constant(k, v)), title)) : null);
@@ -52,7 +55,7 @@ export function law(item) {
   const warnings = l.warnings ?? [];
   return make("div", {}, headline(item.name, "law", "calibrated law", warnings.length > 0 ? make("span", { class: "badge failed" }, "see the warnings") : null),
     warnings.length > 0 ? make("ul", { class: "warnings banner", role: "alert" }, ...warnings.map((w) => make("li", {}, w))) : null,
-    make("p", { class: "about" }, "Contact law of spheres, fitted to the forces between deformable cells in a compressed clump. d is the overlap of two spheres over their radius."),
+    make("p", { class: "about" }, "Contact law of spheres, fitted to the forces between deformable cells in a compressed clump. d is the relative overlap of a cell: the sum of 1 - distance / (sum of both radii) over its neighbours, divided by twelve."),
     tiles(figures), make("div", { class: "plots spaced" }, ...plots.filter((p) => p)),
     make("div", { class: "columns" }, constants(l.dcm, "Deformable cells"), constants(l.cbm, "Spheres")),
     make("details", {}, make("summary", {}, "How it was made"), table(["", ""], origin, "Provenance")));
