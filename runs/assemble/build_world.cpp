@@ -137,6 +137,19 @@ void note_late_rules(const Scene& scene, Notes& notes) {
     note(fmt::format("life.proliferation.rates.{}", k), scene.life.proliferation->rate[k].from);
 }
 
+/// Warns of leaders that are pulled toward an axis without a vein. The axis is where axis_point has
+/// it in every scene, so the force acts all the same.
+void note_leaders_without_vein(const Scene& scene, Notes& notes) {
+  const MotilityBlock& m = scene.motility;
+  if (m.leader_force <= 0 || !m.leader_signal.empty()) return;
+  if (scene.lobule || !scene.vessels.file.empty()) return;
+  notes.warnings.push_back(
+      fmt::format("motility.leader_force pulls the leading cells toward the vertical axis through "
+                  "axis_point = ({:.4g}, {:.4g}) um, where this scene has no vein. A lobule block "
+                  "or vessels.file has one; motility.leader_signal follows a substance instead.",
+                  scene.axis_point[0], scene.axis_point[1]));
+}
+
 void note_cut_cells(const Scene& scene, const coupling::CutCells& cut, double depth, Notes& notes) {
   if (cut.cells.empty()) return;
   constexpr std::size_t kMostNamed = 5;
@@ -200,6 +213,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   build_corrections(scene, p.cbm, built.notes);
   build_life(scene, p, built.type_names);
   note_late_rules(scene, built.notes);
+  note_leaders_without_vein(scene, built.notes);
   set_params(scene, p);
   world.state.tree = coupling::at_rest(p.tree);
   coupling::place_vessels(p.tree, world.state.tree, p.boundary.vessels);

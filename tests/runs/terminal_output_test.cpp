@@ -147,6 +147,14 @@ TEST_F(TerminalOutput, RulesThatNeverActedAreNotedAtTheEnd) {
   EXPECT_CONTAINS(summary("a")["notes"].dump(), "life.rules.0 never acted");
 }
 
+TEST_F(TerminalOutput, LeadersWithoutVeinAreReported) {
+  const std::string warning = "motility.leader_force pulls the leading cells toward the vertical";
+  EXPECT_CONTAINS(call({"check", "pair.json", "--set", "motility.leader_force=0.1 nN"}).text,
+                  warning);
+  EXPECT_EQ(call({"check", "pair.json"}).text.find(warning), std::string::npos);
+  EXPECT_EQ(call({"check", "lobule_hybrid"}).text.find(warning), std::string::npos);
+}
+
 /// Scene with inhibition by pressure and two rules, and a state without cells.
 struct IdleRules : testing::Test {
   IdleRules() {
