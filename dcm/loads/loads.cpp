@@ -87,15 +87,16 @@ std::vector<std::string> skipped_terms(std::span<const Params> params) {
   auto unless = [&](const char* name, auto used) {
     if (std::ranges::none_of(params, used)) skipped.emplace_back(name);
   };
-  unless("dcm cortex springs", [](const Params& p) { return p.spring_stiffness > 0; });
-  unless("dcm nodal friction", [](const Params& p) { return p.nodal_friction > 0; });
-  unless("dcm series dashpots", [](const Params& p) { return p.series_friction > 0; });
-  unless("dcm bending", [](const Params& p) { return p.bending_stiffness > 0; });
-  unless("dcm cortex tension", [](const Params& p) { return p.cortex_tension > 0; });
-  unless("dcm volume", [](const Params& p) { return p.bulk_modulus > 0; });
-  unless("dcm global area", [](const Params& p) { return p.area_modulus > 0; });
-  unless("dcm local area", [](const Params& p) { return p.local_area_modulus > 0; });
-  unless("dcm nucleus", [](const Params& p) { return p.nucleus.has_value(); });
+  unless("springs of the cortex", [](const Params& p) { return p.spring_stiffness > 0; });
+  unless("viscosity of the cortex", [](const Params& p) { return p.nodal_friction > 0; });
+  unless("dashpots in series with the cortex",
+         [](const Params& p) { return p.series_friction > 0; });
+  unless("bending of the cortex", [](const Params& p) { return p.bending_stiffness > 0; });
+  unless("active tension of the cortex", [](const Params& p) { return p.cortex_tension > 0; });
+  unless("volume of deformable cells", [](const Params& p) { return p.bulk_modulus > 0; });
+  unless("surface area of deformable cells", [](const Params& p) { return p.area_modulus > 0; });
+  unless("area of single triangles", [](const Params& p) { return p.local_area_modulus > 0; });
+  unless("nuclei", [](const Params& p) { return p.nucleus.has_value(); });
   return skipped;
 }
 

@@ -37,6 +37,18 @@ std::string read_start_hash(const std::string& run_folder) {
   return io::load_state_file(run_folder + "/start.h5").text("state_hash");
 }
 
+/// Refuses cells.model from the command line where `model` of the scene stands in its place.
+void check_model_flag(const Document& document, const Scene& scene, Report& report) {
+  const Node* node = report.find("/cells/model");
+  if (!scene.model || node == nullptr || !document.sources[node->origin.source].is_flag) return;
+  if (!scene.cells.model || scene.cells.model == scene.model) return;
+  const std::string wanted = name_of_choice(*scene.cells.model);
+  report.add_relation({"/cells/model", "/model"}, "\"" + wanted + "\"",
+                      fmt::format("has no effect, since /model = \"{}\" stands in its place. Take "
+                                  "--set model={}",
+                                  name_of_choice(*scene.model), wanted));
+}
+
 }  // namespace
 
 Scene read_scene(const Document& document, const std::string& label) {
@@ -45,6 +57,7 @@ Scene read_scene(const Document& document, const std::string& label) {
   read_keys(document, report, [&scene](Visitor& visitor) { describe(visitor, scene); });
   apply_accuracy(report, scene);
   if (scene.name.empty()) scene.name = default_name(label);
+  check_model_flag(document, scene, report);
   scene.cells.model = model_of(scene);
   name_the_nameless(scene);
   check_rules(scene, report, experiment_row(scene.experiment).check);

@@ -13,11 +13,12 @@ std::vector<std::string> list_skipped(const coupling::World& world) {
     list.emplace_back("deformable cells");
   else
     list = dcm::skipped_terms(world.params.dcm);
-  if (s.cbm.n_cell() == 0) list.emplace_back("centre-based cells");
-  if (s.dcm.group.empty() || s.cbm.n_cell() == 0) list.emplace_back("DCM-CBM interface");
-  if (world.params.boundary.empty()) list.emplace_back("boundary");
+  if (s.cbm.n_cell() == 0) list.emplace_back("spheres");
+  if (s.dcm.group.empty() || s.cbm.n_cell() == 0)
+    list.emplace_back("contact of deformable cells with spheres");
+  if (world.params.boundary.empty()) list.emplace_back("walls and vessels");
   if (!world.params.motility.random) list.emplace_back("random motility");
-  if (world.params.motility.leader_force <= 0) list.emplace_back("leaders");
+  if (world.params.motility.leader_force <= 0) list.emplace_back("leading cells");
   return list;
 }
 
@@ -29,12 +30,12 @@ std::vector<std::string> list_skipped_work(const coupling::World& world,
       list.push_back(fmt::format("{} in {:.0f} % of cases", what,
                                  100 * (1 - static_cast<double>(done) / static_cast<double>(of))));
   };
-  share("building DCM contact lists", work.dcm.lists.made, work.dcm.lists.checked);
-  share("searching listed contact points", work.dcm.points_seen, work.dcm.points_listed);
+  share("contact lists of deformable cells", work.dcm.lists.made, work.dcm.lists.checked);
+  share("search at listed contact points", work.dcm.points_seen, work.dcm.points_listed);
   if (world.state.cbm.n_cell() > 0)
-    share("building CBM pair lists", work.cbm.list_builds, work.cbm.searches);
+    share("lists of pairs of spheres", work.cbm.list_builds, work.cbm.searches);
   if (!world.state.dcm.group.empty() && !world.state.clock.coarse)
-    list.emplace_back("coarse space of the solver at the end");
+    list.emplace_back("coarse space of the solver, at the end");
   return list;
 }
 
