@@ -217,7 +217,8 @@ BenchRow average(const std::vector<BenchRow>& seeds) {
     auto& [key, mean] = out.value[k];
     mean = 0;
     for (const BenchRow& row : seeds) mean += row.value[k].second / n;
-    if (seeds.size() == 1 || !(key.ends_with("_Pa") || key.ends_with("_bias"))) continue;
+    if (seeds.size() == 1 || !(key.ends_with("_Pa") || key.find("_bias") != std::string::npos))
+      continue;
     double squares = 0;
     for (const BenchRow& row : seeds) squares += std::pow(row.value[k].second - mean, 2);
     deviation.emplace_back("sd_" + key, std::sqrt(squares / (n - 1)));
