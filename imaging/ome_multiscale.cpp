@@ -14,7 +14,6 @@ namespace acinus::imaging {
 namespace {
 
 namespace fs = std::filesystem;
-using Kind = JsonPart::Kind;
 
 /// Metadata of a group; nothing where the folder is none.
 std::optional<JsonFile> read_group(const std::string& folder) {
@@ -137,13 +136,13 @@ void take_level(const JsonPart& image, const JsonPart& dataset, OmeMultiscale& m
 
 OmeAxis axis_of(const JsonPart& p) {
   OmeAxis a;
-  if (!p.is(Kind::kObject))
+  if (!p.is_object())
     p.fail(
         "an axis of OME-Zarr 0.4 is an object with name, type and unit. "
         "Convert the image to 0.4 or 0.5");
   a.name = p.at("name").text();
-  if (p.has("type") && !p.at("type").is(Kind::kNull)) a.type = p.at("type").text();
-  if (p.has("unit") && !p.at("unit").is(Kind::kNull)) a.unit = p.at("unit").text();
+  if (p.has("type") && !p.at("type").is_null()) a.type = p.at("type").text();
+  if (p.has("unit") && !p.at("unit").is_null()) a.unit = p.at("unit").text();
   return a;
 }
 

@@ -44,7 +44,7 @@ Scalar take_type_v2(const JsonPart& place, bool& swap) {
 }
 
 void check_filters(const JsonPart& root) {
-  if (!root.has("filters") || root.at("filters").is(JsonPart::Kind::kNull)) return;
+  if (!root.has("filters") || root.at("filters").is_null()) return;
   for (const JsonPart& filter : root.at("filters").items())
     filter.at("id").fail("filters are not read. Save the labels with a compressor only");
 }
@@ -60,10 +60,9 @@ ZarrCodec zarr_codec(const JsonPart& place, const std::string& name) {
 }
 
 std::optional<Label> fill_label(const JsonPart& place) {
-  using Kind = JsonPart::Kind;
-  if (place.is(Kind::kNull)) return 0;
-  if (place.is(Kind::kBoolean)) return place.boolean() ? 1 : 0;
-  if (!place.is(Kind::kNumber)) return std::nullopt;
+  if (place.is_null()) return 0;
+  if (place.is_boolean()) return place.boolean() ? 1 : 0;
+  if (!place.is_number()) return std::nullopt;
   const double v = place.number();
   if (!(v >= 0 && v <= std::numeric_limits<Label>::max() && v == std::floor(v)))
     return std::nullopt;
@@ -93,7 +92,7 @@ ZarrArray read_zarr_v2(const std::string& folder) {
   }
   check_filters(root);
   const JsonPart compressor = root.at("compressor");
-  if (!compressor.is(JsonPart::Kind::kNull))
+  if (!compressor.is_null())
     a.encoding.codec = {zarr_codec(compressor.at("id"), compressor.at("id").text())};
   return a;
 }

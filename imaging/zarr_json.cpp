@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/json_size.hpp"
@@ -13,38 +12,12 @@
 namespace acinus::imaging {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 std::string shown(const Json& json) {
   constexpr std::size_t kMost = 60;
   if (json.is_array() && json.size() > kMost) return fmt::format("a list of {}", json.size());
   if (json.is_object()) return fmt::format("an object of {} names", json.size());
   const std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
   return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
-}
-
-/// Copies a value. The depth is bounded by fault_of_json_size.
-JsonValue value_of(const Json& json) {
-  using Kind = JsonKind;
-  JsonValue v;
-  v.text = shown(json);
-  if (json.is_boolean()) {
-    v.kind = Kind::kBoolean;
-    v.boolean = json.get<bool>();
-  } else if (json.is_number()) {
-    v.kind = Kind::kNumber;
-    v.number = json.get<double>();
-  } else if (json.is_string()) {
-    v.kind = Kind::kText;
-    v.text = json.get<std::string>();
-  } else if (json.is_array()) {
-    v.kind = Kind::kList;
-    for (const Json& item : json) v.item.push_back(value_of(item));
-  } else if (json.is_object()) {
-    v.kind = Kind::kObject;
-    for (const auto& [name, member] : json.items()) v.member.emplace_back(name, value_of(member));
-  }
-  return v;
 }
 
 }  // namespace
@@ -70,50 +43,44 @@ JsonFile JsonFile::read(const std::string& path) {
         fmt::format("{}: {}. The metadata of zarr are a JSON object: the file is truncated or "
                     "damaged; copy or write the image again.",
                     path, reason.empty() ? "holds " + shown(json) : reason));
-  return {path, value_of(json)};
-}
-
-const JsonValue* JsonPart::find(const std::string& name) const {
-  for (const auto& [n, v] : value_->member)
-    if (n == name) return &v;
-  return nullptr;
+  return {path, std::move(json)};
 }
 
 std::vector<std::string> JsonPart::names() const {
   std::vector<std::string> all;
-  for (const auto& m : value_->member) all.push_back(m.first);
+  if (is_object())
+    for (const auto& m : value_->items()) all.push_back(m.key());
   return all;
 }
 
 JsonPart JsonPart::at(const std::string& name) const {
-  if (!is(Kind::kObject)) fail(fmt::format("an object with \"{}\" is needed", name));
-  const JsonValue* found = find(name);
-  check(found != nullptr,
+  if (!is_object()) fail(fmt::format("an object with \"{}\" is needed", name));
+  check(has(name),
         fmt::format("{}: {}/{} is missing. Write the image again.", *path_, pointer_, name));
-  return {*path_, *found, pointer_ + "/" + name};
+  return {*path_, value_->at(name), pointer_ + "/" + name};
 }
 
 std::vector<JsonPart> JsonPart::items() const {
-  if (!is(Kind::kList)) fail("a list is needed");
+  if (!is_list()) fail("a list is needed");
   std::vector<JsonPart> all;
-  for (const JsonValue& v : value_->item)
+  for (const Json& v : *value_)
     all.emplace_back(*path_, v, fmt::format("{}/{}", pointer_, all.size()));
   return all;
 }
 
 std::string JsonPart::text() const {
-  if (!is(Kind::kText)) fail("a text is needed");
-  return value_->text;
+  if (!is_text()) fail("a text is needed");
+  return value_->get<std::string>();
 }
 
 double JsonPart::number() const {
-  if (!is(Kind::kNumber)) fail("a number is needed");
-  return value_->number;
+  if (!is_number()) fail("a number is needed");
+  return value_->get<double>();
 }
 
 bool JsonPart::boolean() const {
-  if (!is(Kind::kBoolean)) fail("true or false is needed");
-  return value_->boolean;
+  if (!is_boolean()) fail("true or false is needed");
+  return value_->get<bool>();
 }
 
 std::vector<double> JsonPart::numbers() const {
@@ -136,7 +103,7 @@ std::vector<std::int64_t> JsonPart::counts(std::int64_t least) const {
 
 std::string JsonPart::where() const {
   return fmt::format("{}: {} = {}", *path_, pointer_.empty() ? "/" : pointer_,
-                     is(Kind::kText) ? geometry::in_quotes(value_->text) : value_->text);
+                     is_text() ? geometry::in_quotes(value_->get<std::string>()) : shown(*value_));
 }
 
 void JsonPart::fail(const std::string& rule) const {

@@ -2,34 +2,29 @@
 /// Metadata of zarr: JSON files of other programs, each value with its place for messages.
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace acinus::imaging {
 
-enum class JsonKind { kNull, kBoolean, kNumber, kText, kList, kObject };
-
-/// Value in a JSON file.
-struct JsonValue {
-  JsonKind kind = JsonKind::kNull;
-  bool boolean = false;
-  double number = 0;
-  std::string text;  ///< of kText; of all others as it is written, cut when long
-  std::vector<JsonValue> item;
-  std::vector<std::pair<std::string, JsonValue>> member;
-};
+using Json = nlohmann::ordered_json;
 
 /// View of a value in a JsonFile, which must outlive it. All failures throw Error with the file,
 /// the place in it and the value found.
 class JsonPart {
  public:
-  using Kind = JsonKind;
-  JsonPart(const std::string& path, const JsonValue& value, std::string pointer = "")
+  JsonPart(const std::string& path, const Json& value, std::string pointer = "")
       : path_(&path), value_(&value), pointer_(std::move(pointer)) {}
 
-  bool is(Kind kind) const { return value_->kind == kind; }
-  bool has(const std::string& name) const { return find(name) != nullptr; }
+  bool is_null() const { return value_->is_null(); }
+  bool is_boolean() const { return value_->is_boolean(); }
+  bool is_number() const { return value_->is_number(); }
+  bool is_text() const { return value_->is_string(); }
+  bool is_list() const { return value_->is_array(); }
+  bool is_object() const { return value_->is_object(); }
+  bool has(const std::string& name) const { return is_object() && value_->contains(name); }
   /// Names of the members of an object.
   std::vector<std::string> names() const;
   JsonPart at(const std::string& name) const;
@@ -47,16 +42,15 @@ class JsonPart {
   [[noreturn]] void fail(const std::string& rule) const;
 
  private:
-  const JsonValue* find(const std::string& name) const;
   const std::string* path_;
-  const JsonValue* value_;
+  const Json* value_;
   std::string pointer_;
 };
 
 /// JSON file, held in memory.
 struct JsonFile {
   std::string path;
-  JsonValue value;
+  Json value;
   /// Reads an object. Throws Error if the file cannot be read, is not JSON or holds no object.
   static JsonFile read(const std::string& path);
   JsonPart root() const { return {path, value}; }

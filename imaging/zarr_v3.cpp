@@ -14,8 +14,6 @@
 namespace acinus::imaging {
 namespace {
 
-using Kind = JsonPart::Kind;
-
 Scalar type_of_v3(const JsonPart& place) {
   constexpr std::array<std::pair<const char*, Scalar>, 11> kTypes{{{"bool", Scalar::kU8},
                                                                    {"uint8", Scalar::kU8},
@@ -37,19 +35,16 @@ Scalar type_of_v3(const JsonPart& place) {
 }
 
 /// Name of a codec, grid or key encoding: {"name": ...}, or the name alone.
-std::string name_of(const JsonPart& p) {
-  return p.is(Kind::kText) ? p.text() : p.at("name").text();
-}
+std::string name_of(const JsonPart& p) { return p.is_text() ? p.text() : p.at("name").text(); }
 
-JsonPart name_place(const JsonPart& p) { return p.is(Kind::kText) ? p : p.at("name"); }
+JsonPart name_place(const JsonPart& p) { return p.is_text() ? p : p.at("name"); }
 
 void take_keys(const JsonPart& p, ZarrArray& a) {
   const std::string name = name_of(p);
   if (name != "default" && name != "v2") name_place(p).fail("\"default\" or \"v2\" is needed");
   a.prefix = name == "default" ? "c" : "";
   a.separator = name == "default" ? '/' : '.';
-  if (p.is(Kind::kText) || !p.has("configuration") || !p.at("configuration").has("separator"))
-    return;
+  if (p.is_text() || !p.has("configuration") || !p.at("configuration").has("separator")) return;
   const JsonPart s = p.at("configuration").at("separator");
   if (s.text() != "." && s.text() != "/") s.fail("\".\" or \"/\" is needed");
   a.separator = s.text()[0];
@@ -57,8 +52,8 @@ void take_keys(const JsonPart& p, ZarrArray& a) {
 
 /// Byte order of the codec "bytes". @param bytes  of a number
 bool is_swapped(const JsonPart& codec, std::size_t bytes) {
-  const bool stated = codec.is(Kind::kObject) && codec.has("configuration") &&
-                      codec.at("configuration").has("endian");
+  const bool stated =
+      codec.is_object() && codec.has("configuration") && codec.at("configuration").has("endian");
   if (!stated) {
     if (bytes > 1) codec.fail("numbers of several bytes need \"endian\": little or big");
     return false;
@@ -71,7 +66,7 @@ bool is_swapped(const JsonPart& codec, std::size_t bytes) {
 /// Reorders the axes as a codec "transpose" does.
 void transpose(const JsonPart& codec, std::vector<std::size_t>& order) {
   const JsonPart place = codec.at("configuration").at("order");
-  if (!place.is(Kind::kList)) place.fail("a list of all axes is needed");
+  if (!place.is_list()) place.fail("a list of all axes is needed");
   const std::vector<std::int64_t> said = place.counts(0);
   std::vector<std::int64_t> sorted = said, all(order.size());
   std::iota(all.begin(), all.end(), 0);
@@ -137,8 +132,8 @@ void check_names(const JsonPart& root) {
   for (const std::string& name : root.names()) {
     if (std::ranges::find(kKnown, name) != kKnown.end()) continue;
     const JsonPart extra = root.at(name);
-    const bool optional = extra.is(Kind::kObject) && extra.has("must_understand") &&
-                          !extra.at("must_understand").boolean();
+    const bool optional =
+        extra.is_object() && extra.has("must_understand") && !extra.at("must_understand").boolean();
     if (!optional) extra.fail("is an extension of zarr that is not read. Write the image without");
   }
   if (root.has("storage_transformers") && !root.at("storage_transformers").items().empty())
@@ -166,9 +161,9 @@ ZarrArray read_zarr_v3(const std::string& folder) {
   a.encoding.order.resize(a.shape.size());
   std::iota(a.encoding.order.begin(), a.encoding.order.end(), 0);
   take_codecs(root.at("codecs"), a);
-  if (root.has("dimension_names") && !root.at("dimension_names").is(Kind::kNull))
+  if (root.has("dimension_names") && !root.at("dimension_names").is_null())
     for (const JsonPart& n : root.at("dimension_names").items())
-      a.axis.push_back(n.is(Kind::kNull) ? "" : n.text());
+      a.axis.push_back(n.is_null() ? "" : n.text());
   return a;
 }
 
