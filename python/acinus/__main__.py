@@ -33,6 +33,7 @@ def main(words=None):
     one.add_argument("run")
     one.add_argument("file", help="ends in .simularium")
     one.add_argument("--frames", type=int, default=MOST_FRAMES, help=f"at most (default: {MOST_FRAMES})")
+    one.add_argument("--meshes", action="store_true", help="also write the surface of every deformable cell and frame, as OBJ")
     one = commands.add_parser("film", help="a run as an animated picture or a folder of pictures")
     one.add_argument("run")
     one.add_argument("out", help=f"ends in {', '.join(ENDINGS)}; without an ending: a folder of PNG pictures")
@@ -58,7 +59,7 @@ def main(words=None):
         if a.command == "program":
             return acinus.call_program(*a.words).returncode
         if a.command == "simularium":
-            print(write_simularium(acinus.Run(a.run), a.file, a.frames))
+            print(write_simularium(acinus.Run(a.run), a.file, a.frames, a.meshes))
         elif a.command == "film":
             print(make_film(a))
         elif a.command == "physicell-law":

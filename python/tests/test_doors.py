@@ -12,6 +12,7 @@ import struct
 import subprocess
 import tempfile
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -168,6 +169,27 @@ class ToOthers(unittest.TestCase):
             np.testing.assert_allclose(np.sort(rows[:, 3]), np.sort(np.asarray(run.cells(frame=k)["center_x"])), rtol=1e-5)
             np.testing.assert_allclose(rows[:, 9], 12, rtol=0.02)
         self.assertRaises(acinus.BadInput, write_simularium, run, self.folder + "/pair.json")
+
+    def test_simularium_meshes(self):
+        run = acinus.Run(self.run_folder)
+        j = json.loads(pathlib.Path(write_simularium(run, self.folder + "/mesh.simularium", 3, meshes=True)).read_text())
+        types = j["trajectoryInfo"]["typeMapping"]
+        self.assertEqual(len(types), 4)  # the sphere, and the deformable cell in each frame
+        self.assertEqual(len({t["geometry"].get("url") for t in types.values()}), 4)
+        for frame, k in zip(j["spatialData"]["bundleData"], (0, 2, 3)):
+            for row in np.array(frame["data"]).reshape(-1, 11):
+                picture = types[str(int(row[2]))]["geometry"]
+                if picture["displayType"] == "SPHERE":
+                    continue
+                lines = [line.split() for line in pathlib.Path(self.folder, picture["url"]).read_text().splitlines()]
+                points = row[3:6] + row[9] * np.array([line[1:] for line in lines if line[0] == "v"], dtype=float)
+                triangles = np.array([line[1:] for line in lines if line[0] == "f"], dtype=int) - 1
+                own_points, own_triangles = run[k].mesh(int(row[1]))
+                np.testing.assert_allclose(points, own_points, atol=1e-4)
+                np.testing.assert_array_equal(triangles, own_triangles)
+        with mock.patch("acinus.simularium.MOST_MESHES", 2):
+            with self.assertRaisesRegex(acinus.BadInput, "3 surfaces in 3 frames"):
+                write_simularium(run, self.folder + "/mesh.simularium", 3, meshes=True)
 
     def test_law(self):
         table = physicell.law_table(acinus.Law(self.law))
