@@ -42,12 +42,22 @@ ACINUS_INLINE LaneOf<T> spread(T s) {
   return LaneOf<T>{s, s, s, s, s, s, s, s};
 }
 
+/// Neighbours of eight voxels along their row.
+template <class T>
+struct Beside {
+  LaneOf<T> left, right;
+};
+
+template <class T>
+ACINUS_INLINE Beside<T> load_beside(const T* x) {
+  return {load<T>(x - 1), load<T>(x + 1)};
+}
+
 /// Flow into eight voxels from their neighbours.
 template <class T>
 ACINUS_INLINE LaneOf<T> inflow(const T* low, const T* high, const T* width,
-                               const NeighbourRows<T>& r, const T* x, std::size_t i) {
-  const LaneOf<T> along =
-      load<T>(low + i) * load<T>(x + i - 1) + load<T>(high + i) * load<T>(x + i + 1);
+                               const NeighbourRows<T>& r, const Beside<T>& x, std::size_t i) {
+  const LaneOf<T> along = load<T>(low + i) * x.left + load<T>(high + i) * x.right;
   const LaneOf<T> across =
       spread(r.y_low) * load<T>(r.below_y + i) + spread(r.y_high) * load<T>(r.above_y + i) +
       spread(r.z_low) * load<T>(r.below_z + i) + spread(r.z_high) * load<T>(r.above_z + i);
@@ -86,10 +96,9 @@ PartialRows<T> partial_row_at(const Level<T>& l, const T* x, int j, int k) {
 }
 
 template <class T>
-ACINUS_INLINE LaneOf<T> inflow(const T*, const T*, const T*, const PartialRows<T>& r, const T* x,
-                               std::size_t i) {
-  const LaneOf<T> along =
-      load<T>(r.x + i) * load<T>(x + i - 1) + load<T>(r.x + i + 1) * load<T>(x + i + 1);
+ACINUS_INLINE LaneOf<T> inflow(const T*, const T*, const T*, const PartialRows<T>& r,
+                               const Beside<T>& x, std::size_t i) {
+  const LaneOf<T> along = load<T>(r.x + i) * x.left + load<T>(r.x + i + 1) * x.right;
   const LaneOf<T> in_plane = load<T>(r.y_low + i) * load<T>(r.below_y + i) +
                              load<T>(r.y_high + i) * load<T>(r.above_y + i);
   const LaneOf<T> across = load<T>(r.z_low + i) * load<T>(r.below_z + i) +
@@ -130,10 +139,17 @@ ACINUS_INLINE void smooth_row_of(LevelRow<T> l, Rows r, const T* inverse, const 
                                  T* x) {
   const MaskOf<T> mask =
       odd ? MaskOf<T>{0, -1, 0, -1, 0, -1, 0, -1} : MaskOf<T>{-1, 0, -1, 0, -1, 0, -1, 0};
+  // Neighbours come from registers: a load across what was just stored would wait for the store.
+  LaneOf<T> before = load<T>(x - kLanes), here = load<T>(x);
   for (std::size_t i = 0; i < l.n; i += kLanes) {
+    const LaneOf<T> after = load<T>(x + i + kLanes);
+    const Beside<T> beside{__builtin_shufflevector(before, here, 7, 8, 9, 10, 11, 12, 13, 14),
+                           __builtin_shufflevector(here, after, 1, 2, 3, 4, 5, 6, 7, 8)};
     const LaneOf<T> value =
-        load<T>(inverse + i) * (load<T>(b + i) + inflow(l.low, l.high, l.width, r, x, i));
-    store(x + i, mask ? value : load<T>(x + i));
+        load<T>(inverse + i) * (load<T>(b + i) + inflow(l.low, l.high, l.width, r, beside, i));
+    store(x + i, mask ? value : here);
+    before = here;
+    here = after;
   }
 }
 template <class T>
@@ -149,7 +165,8 @@ ACINUS_INLINE double multiply_row_of(LevelRow<T> l, Rows r, const T* diagonal, c
   Lane sum = lane_of(0);
   for (std::size_t i = 0; i < l.n; i += kLanes) {
     const LaneOf<T> own = load<T>(x + i);
-    const LaneOf<T> value = load<T>(diagonal + i) * own - inflow(l.low, l.high, l.width, r, x, i);
+    const LaneOf<T> value =
+        load<T>(diagonal + i) * own - inflow(l.low, l.high, l.width, r, load_beside(x + i), i);
     store(y + i, value);
     sum += __builtin_convertvector(own, Lane) * __builtin_convertvector(value, Lane);
   }
@@ -160,7 +177,7 @@ ACINUS_INLINE void residual_row_of(LevelRow<T> l, Rows r, const T* diagonal, con
                                    T* y) {
   for (std::size_t i = 0; i < l.n; i += kLanes)
     store(y + i, load<T>(b + i) - load<T>(diagonal + i) * load<T>(x + i) +
-                     inflow(l.low, l.high, l.width, r, x, i));
+                     inflow(l.low, l.high, l.width, r, load_beside(x + i), i));
 }
 
 ACINUS_KERNEL void smooth_row(const LevelRow<float>& l, const NeighbourRows<float>& r,

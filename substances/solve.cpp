@@ -10,10 +10,25 @@ namespace {
 
 constexpr int kMostIterations = 200;
 
-ACINUS_KERNEL double dot_row(std::size_t n, const double* a, const float* b) {
+template <class T>
+ACINUS_INLINE double dot_row_of(std::size_t n, const double* a, const T* b) {
   Lane sum = lane_of(0);
   for (std::size_t i = 0; i < n; i += kLanes) sum += load(a + i) * load<double>(b + i);
   return sum_lanes<double>(sum);
+}
+ACINUS_KERNEL double dot_row(std::size_t n, const double* a, const float* b) {
+  return dot_row_of(n, a, b);
+}
+ACINUS_KERNEL double dot_row(std::size_t n, const double* a, const double* b) {
+  return dot_row_of(n, a, b);
+}
+
+/// x = factor x, r = b - A x after it
+ACINUS_KERNEL void scale_row(std::size_t n, double factor, const double* b, double* x, double* r) {
+  for (std::size_t i = 0; i < n; i += kLanes) {
+    store(x + i, factor * load(x + i));
+    store(r + i, factor * load(r + i) + (1 - factor) * load(b + i));
+  }
 }
 
 /// p = z + beta p
@@ -91,6 +106,23 @@ void Solver::resize(const std::array<int, 3>& n) {
   z_.assign(size, 0.0F);
 }
 
+void Solver::scale_start() {
+  const PaddedLayout& l = level_.layout;
+  const auto product = [&](const std::vector<double>& a, const std::vector<double>& b) {
+    return sum_planes(l.n[2], l.n_voxel(), [&](int k) {
+      const auto [first, n] = plane_of(l, k);
+      return dot_row(n, a.data() + first, b.data() + first);
+    });
+  };
+  const double xb = product(x_, q_), xr = product(x_, r_);
+  if (!(xb > 0) || !(xb > xr)) return;
+  const double factor = xb / (xb - xr);
+  for_each_plane(l.n[2], l.n_voxel(), [&](int k) {
+    const auto [first, n] = plane_of(l, k);
+    scale_row(n, factor, q_.data() + first, x_.data() + first, r_.data() + first);
+  });
+}
+
 SolveResult Solver::solve(const StepSystem& system, double tolerance, std::span<double> c) {
   const PaddedLayout& l = level_.layout;
   set_faces(system.conductance, level_);
@@ -112,6 +144,7 @@ SolveResult Solver::solve(const StepSystem& system, double tolerance, std::span<
   const double scale = 1 / norm;
   const auto norm_of = [](double rr) { return std::sqrt(std::max(rr, 0.0)); };
   subtract_product(level_, q_.data(), x_.data(), r_.data());
+  scale_start();
   double rr = sum_planes(l.n[2], l.n_voxel(), [&](int k) {
     const auto [first, n] = plane_of(l, k);
     return advance_row(n, 0, scale, p_.data() + first, q_.data() + first, x_.data() + first,

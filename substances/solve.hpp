@@ -44,6 +44,10 @@ class Solver {
   StepScratch& scratch() { return scratch_; }
 
  private:
+  /// Multiplies the start x_ by the factor of least error in energy: a field that decays or grows
+  /// as a whole needs no iterations for that. Updates the residual r_; q_ has the right-hand side.
+  void scale_start();
+
   Level<double> level_;
   Multigrid multigrid_;
   StepScratch scratch_;

@@ -93,7 +93,9 @@ BenchTable bench_fields(const BenchOptions&) {
        {FieldCase{"morphogen, D dt / h^2 = 6", 10, 1e-3, closed, 0, secretes},
         FieldCase{"oxygen, linear uptake, D dt / h^2 = 1200", 2000, 0, held, 38, linear},
         FieldCase{"oxygen, Michaelis-Menten uptake, D dt / h^2 = 1200", 2000, 0, held, 38,
-                  saturates}})
+                  saturates},
+        FieldCase{"oxygen, linear uptake, closed box, D dt / h^2 = 1200", 2000, 0, closed, 38,
+                  linear}})
     table.push_back(measure_field(c));
   return table;
 }
