@@ -17,6 +17,7 @@
 #include "coupling/substances/vessel_feed.hpp"
 #include "coupling/world/cell.hpp"
 #include "runs/assemble/build_boundary.hpp"
+#include "substances/planes.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -81,9 +82,56 @@ void check_size(const Scene& scene, const Box& box, double spacing) {
                     scene.file, n, spacing, 1e-9 * needed, 1e-9 * limit));
 }
 
+std::string name_grid(const substances::VoxelGrid& grid) {
+  const Box box = grid.box();
+  return fmt::format(
+      "from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) um, in voxels of "
+      "{:.3g} um",
+      box.low.x(), box.low.y(), box.low.z(), box.high.x(), box.high.y(), box.high.z(),
+      grid.spacing.maxCoeff());
+}
+
+/// Adds a source to the voxels whose centres are in its region.
+void add_source(const Scene& scene, const SourceEntry& source, const std::string& pointer,
+                const substances::VoxelGrid& grid, substances::Medium& m) {
+  std::size_t v = 0, inside = 0;
+  for (int k = 0; k < grid.n[2]; ++k)
+    for (int j = 0; j < grid.n[1]; ++j)
+      for (int i = 0; i < grid.n[0]; ++i, ++v) {
+        if (!coupling::in_region(source.region, scene.axis_point, grid.center(i, j, k))) continue;
+        ++inside;
+        m.gain[v] += source.secretion;
+        if (source.saturation > 0) m.loss[v] += source.secretion / source.saturation;
+      }
+  check(inside > 0,
+        fmt::format("{}: {}/region holds the centre of no voxel, so the source would release "
+                    "nothing. The fields reach {}. Move the source, or take a "
+                    "/substance_grid/box that holds it, or a smaller /substance_grid/spacing if it "
+                    "is smaller than a voxel.",
+                    scene.file, pointer, name_grid(grid)));
+}
+
+void add_vessels(const Scene& scene, const SubstanceBlock& b, const std::string& pointer,
+                 const coupling::World& world, substances::Medium& m) {
+  const substances::VoxelGrid& grid = world.params.substances.grid;
+  const bool kept_out = b.outside_cells() || b.outside_obstacles;
+  std::vector<double>&gain = kept_out ? m.wall_gain : m.gain,
+  &loss = kept_out ? m.wall_loss : m.loss;
+  gain.resize(grid.n_voxel(), 0.0);
+  loss.resize(grid.n_voxel(), 0.0);
+  const double before = substances::sum_numbers(loss);
+  coupling::add_vessel_feed(grid, coupling::vessels_at_rest(world.params), b.vessels->permeability,
+                            b.vessels->concentration, gain, loss);
+  check(substances::sum_numbers(loss) > before,
+        fmt::format("{}: {}/vessels: no vessel is in the box of the fields, which reach {}. Take a "
+                    "/substance_grid/box that holds vessels.",
+                    scene.file, pointer, name_grid(grid)));
+}
+
 substances::Medium make_medium(const Scene& scene, const SubstanceBlock& b,
                                const coupling::World& world) {
   const substances::VoxelGrid& grid = world.params.substances.grid;
+  const std::string pointer = fmt::format("/substances/{}", index_of(scene, b.name));
   substances::Medium m;
   m.diffusion = b.diffusion;
   m.decay = b.decay;
@@ -92,24 +140,9 @@ substances::Medium make_medium(const Scene& scene, const SubstanceBlock& b,
   if (b.sources.empty() && !b.vessels) return m;
   m.gain.assign(grid.n_voxel(), 0.0);
   m.loss.assign(grid.n_voxel(), 0.0);
-  std::size_t v = 0;
-  for (int k = 0; k < grid.n[2]; ++k)
-    for (int j = 0; j < grid.n[1]; ++j)
-      for (int i = 0; i < grid.n[0]; ++i, ++v)
-        for (const SourceEntry& source : b.sources) {
-          if (!coupling::in_region(source.region, scene.axis_point, grid.center(i, j, k))) continue;
-          m.gain[v] += source.secretion;
-          if (source.saturation > 0) m.loss[v] += source.secretion / source.saturation;
-        }
-  if (!b.vessels) return m;
-  const bool kept_out = b.outside_cells() || b.outside_obstacles;
-  if (kept_out) {
-    m.wall_gain.assign(grid.n_voxel(), 0.0);
-    m.wall_loss.assign(grid.n_voxel(), 0.0);
-  }
-  coupling::add_vessel_feed(grid, coupling::vessels_at_rest(world.params), b.vessels->permeability,
-                            b.vessels->concentration, kept_out ? m.wall_gain : m.gain,
-                            kept_out ? m.wall_loss : m.loss);
+  for (std::size_t k = 0; k < b.sources.size(); ++k)
+    add_source(scene, b.sources[k], fmt::format("{}/sources/{}", pointer, k), grid, m);
+  if (b.vessels) add_vessels(scene, b, pointer, world, m);
   return m;
 }
 

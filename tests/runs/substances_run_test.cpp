@@ -175,5 +175,36 @@ TEST_F(SubstancesRun, CheckTellsTheGrid) {
       << outside.text;
 }
 
+TEST_F(SubstancesRun, SourcesAndVesselsMustReachTheGrid) {
+  const auto refusal = [&](const std::string& blocks) {
+    write("source.json", R"({"time": {"end": "1 h"}, "cell_types": {"a": {"radius": "12 um"}},
+      "cells": {"model": "cbm", "list": [{"position": ["0 um", "0 um", "0 um"]}]},
+      "substance_grid": {"spacing": "10 um", "box": [["-50 um", "-50 um", "-50 um"],
+                                                     ["50 um", "50 um", "50 um"]]}, )" +
+                             blocks + "}");
+    const Outcome checked = call({"check", "source.json"});
+    EXPECT_EQ(checked.code, 2) << checked.text;
+    return checked.text;
+  };
+  const auto sphere = [&](const std::string& x, const std::string& radius) {
+    return refusal(R"("substances": [{"name": "a", "diffusion": "1 um^2/s", "sources": [
+      {"region": {"kind": "all"}, "secretion": "1 1/s"},
+      {"region": {"kind": "sphere", "center": [")" +
+                   x + R"(", "0 um", "0 um"], "radius": ")" + radius +
+                   R"("}, "secretion": "1 1/s"}]}])");
+  };
+  const std::string outside =
+      "/substances/0/sources/1/region holds the centre of no voxel, so the source would release "
+      "nothing. The fields reach from (-50, -50, -50) to (50, 50, 50) um, in voxels of 10 um.";
+  EXPECT_NE(sphere("200 um", "20 um").find(outside), std::string::npos);
+  EXPECT_NE(sphere("0 um", "1 um").find(outside), std::string::npos);  // between centres
+  write("far.swc", "1 0 200 0 0 5 -1\n2 0 300 0 0 5 1\n");
+  EXPECT_NE(refusal(R"("substances": [{"name": "a", "diffusion": "1 um^2/s",
+      "vessels": {"concentration": 1, "permeability": "1 um/s"}}],
+      "vessels": {"file": "far.swc"})")
+                .find("/substances/0/vessels: no vessel is in the box of the fields"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace acinus::runs
