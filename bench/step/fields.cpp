@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/parallel/clock.hpp"
+#include "core/sphere.hpp"
 #include "substances/diffusion.hpp"
 
 namespace acinus::bench {
@@ -78,6 +79,63 @@ BenchRow measure_field(const FieldCase& c) {
   return row;
 }
 
+/// Substance that does not pass cells, or only through their membranes.
+struct BarrierCase {
+  std::string name;
+  double permeability;  ///< um/s; 0: kept out
+};
+
+/// Cells rest: what they hold need not be carried to new voxels. Their shapes are found anew.
+BenchRow measure_barrier(const BarrierCase& c) {
+  constexpr double kCellRadius = 12, kTissueRadius = 290, kDiffusion = 100;
+  const substances::VoxelGrid grid = substances::make_grid(
+      {Vec3::Zero(), Vec3::Constant(kFieldVoxels * kFieldSpacing)}, kFieldSpacing);
+  substances::Medium medium;
+  medium.diffusion = kDiffusion;
+  medium.face.fill({substances::FaceKind::kFixed, 1, 0});
+  const std::vector<Vec3> cell = ball_of_cells(22, kTissueRadius);
+  const substances::Shares no_shares;
+  substances::Solver solver;
+  solver.resize(grid.n);
+  std::vector<double> field(grid.n_voxel(), 0.0), wall, shapes_wall;
+  double iterations = 0;
+  for (int step = 0; step < kFieldWarmUp + kFieldSteps; ++step) {
+    const double start = cpu_seconds();
+    substances::CoveredSpace covered(grid);
+    substances::Parts parts;
+    for (const Vec3& x : cell) {
+      const substances::Cover cover = substances::cover_sphere(grid, x, kCellRadius);
+      covered.add(cover);
+      if (c.permeability > 0)
+        substances::add_body(grid, cover, substances::share_sphere_by_area(grid, x, kCellRadius),
+                             4 * kPi * kCellRadius * kCellRadius, parts);
+    }
+    const substances::OpenSpace space = covered.open(grid);
+    field.resize(grid.n_voxel() + parts.n(), 0.0);
+    const double placed = cpu_seconds();
+    substances::Advance how{kFieldStep, 0, 1e-6};
+    how.space = &space;
+    how.parts = c.permeability > 0 ? &parts : nullptr;
+    how.permeability = c.permeability;
+    const substances::Budget budget =
+        substances::advance(grid, medium, {no_shares, {}}, how, solver, field, {});
+    if (step < kFieldWarmUp) continue;
+    wall.push_back(cpu_seconds() - placed);
+    shapes_wall.push_back(placed - start);
+    iterations += static_cast<double>(budget.iterations) / kFieldSteps;
+  }
+  std::ranges::sort(wall);
+  std::ranges::sort(shapes_wall);
+  BenchRow row{c.name,
+               static_cast<int>(cell.size()),
+               {{"cpu_ms_per_step", 1e3 * wall[kFieldSteps / 2]},
+                {"shares_ms_per_step", 1e3 * shapes_wall[kFieldSteps / 2]},
+                {"solves_per_step", 1},
+                {"iterations_per_step", iterations}}};
+  print_row(row);
+  return row;
+}
+
 }  // namespace
 
 BenchTable bench_fields(const BenchOptions&) {
@@ -97,6 +155,9 @@ BenchTable bench_fields(const BenchOptions&) {
         FieldCase{"oxygen, linear uptake, closed box, D dt / h^2 = 1200", 2000, 0, closed, 38,
                   linear}})
     table.push_back(measure_field(c));
+  for (const BarrierCase& c : {BarrierCase{"kept out of cells, D dt / h^2 = 60", 0},
+                               BarrierCase{"membranes of 0.1 um/s, D dt / h^2 = 60", 0.1}})
+    table.push_back(measure_barrier(c));
   return table;
 }
 
