@@ -30,7 +30,7 @@ def read_arguments():
                         help="number from 0, negative from the end, or last")
     parser.add_argument("--out", required=True, help="PNG file")
     parser.add_argument("--color", default=None,
-                        help="kind, cell, or a field, e.g. pressure (default) or radius")
+                        help="kind, cell, a field, e.g. pressure (default), or a column of /cells, e.g. concentration_oxygen")
     parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"),
                         help="of the colours, as labelled")
     parser.add_argument("--clip", choices="xyz", help="cut through the middle, across this axis")

@@ -61,8 +61,8 @@ class Frame:
             self.unit = {}
             for group in ("PointData", "CellData"):
                 for name, values in root[group].items():
-                    unit = values.attrs["unit"]
-                    self.unit[name] = unit.decode() if isinstance(unit, bytes) else str(unit)
+                    self.unit[name] = unit_of(values)
+            self.table = self.read_table(file["cells"], k)
             self.observable = {name: float(values[k]) for name, values in file.get("observables", {}).items()
                                if name != "time" and k < len(values)}
         self.kind, self.cell_id = self.cell_data["kind"], self.cell_data["cell_id"]
@@ -76,10 +76,21 @@ class Frame:
             result[name] = values[first:first + n]
         return result
 
+    def read_table(self, cells, k):
+        """Columns of /cells with one number per cell, by name; ids of the cells in "id"."""
+        rows = slice(int(cells["frame_offset"][k]), int(cells["frame_offset"][k + 1]))
+        table = {}
+        for name, values in cells.items():
+            if values.ndim != 1 or name == "frame_offset":
+                continue
+            table[name] = values[rows]
+            self.unit.setdefault(name, unit_of(values))
+        return table
+
     def colored_by(self, name):
         """Values per cell (rows: triangles, spheres) and per point; one of them is None.
 
-        Vectors become their length, kPa become Pa.
+        Fields of the frame, or columns of /cells such as concentrations. Vectors become their length, kPa become Pa.
         """
         for per_cell, data in ((True, self.cell_data), (False, self.point_data)):
             if name not in data:
@@ -91,7 +102,14 @@ class Frame:
             if unit == "kPa":
                 values, unit = 1000 * values, "Pa"
             return (values, None, unit) if per_cell else (None, values, unit)
-        known = sorted(set(self.cell_data) | set(self.point_data) | {"kind", "cell"})
+        if name in self.table:
+            import numpy as np
+            order = np.argsort(self.table["id"])
+            at = np.searchsorted(self.table["id"], self.cell_id, sorter=order)
+            found = order[np.minimum(at, len(order) - 1)]
+            values = np.where(self.table["id"][found] == self.cell_id, self.table[name][found], np.nan)
+            return values.astype(float), None, self.unit[name]
+        known = sorted(set(self.cell_data) | set(self.point_data) | set(self.table) | {"kind", "cell"})
         raise UserError(f"--color {name}: the run has no such field, only {', '.join(known)}")
 
     def value_of(self, name):
@@ -108,6 +126,11 @@ class Frame:
         n_node = len(self.point) - self.n_sphere
         spheres = n_node + np.flatnonzero(self.kind[self.n_triangle:] != VESSEL)
         return np.concatenate([used, spheres]).astype(int)
+
+
+def unit_of(values):
+    unit = values.attrs["unit"]
+    return unit.decode() if isinstance(unit, bytes) else str(unit)
 
 
 def parse_integer(text, option):
