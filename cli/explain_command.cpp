@@ -3,7 +3,9 @@
 
 #include <memory>
 
+#include "acinus_version.hpp"
 #include "cli/command.hpp"
+#include "cli/man_page.hpp"
 #include "runs/experiments/explain_observables.hpp"
 #include "runs/infer/inference_registry.hpp"
 #include "runs/scene/entries.hpp"
@@ -51,8 +53,17 @@ Command add_explain(CLI::App& app) {
       "observable");
   command->add_flag("--observables", *observables, "list what runs measure in place of keys")
       ->excludes(option);
-  command->add_flag("--markdown", *markdown, "all of them as a Markdown page")->excludes(option);
-  return {command, [key, markdown, observables] {
+  CLI::Option* page = command->add_flag("--markdown", *markdown, "all of them as a Markdown page")
+                          ->excludes(option);
+  const auto man = std::make_shared<bool>(false);
+  command->add_flag("--man", *man, "print the manual page of the program: all commands, as roff")
+      ->excludes(option)
+      ->excludes(page);
+  return {command, [key, markdown, observables, man, &app] {
+            if (*man) {
+              fmt::print("{}", man_page(app, ACINUS_VERSION));
+              return 0;
+            }
             return *observables ? explain_measured(*markdown) : explain(*key, *markdown);
           }};
 }

@@ -8,6 +8,7 @@ install(TARGETS acinus RUNTIME)
 if(ACINUS_BENCH)
   install(TARGETS acinus-bench RUNTIME)
 endif()
+install(FILES ${CMAKE_BINARY_DIR}/acinus.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(DIRECTORY runs/scenes runs/studies runs/laws DESTINATION ${CMAKE_INSTALL_DATADIR}/acinus)
 install(FILES LICENSE CITATION.cff README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)  # the name that Debian expects

@@ -15,7 +15,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-NEEDED = ["usr/bin/acinus", "usr/share/acinus/scenes/lobule_hybrid.json", "usr/share/acinus/laws/hepatocyte_5e-6.json", "usr/share/doc/acinus/copyright",
+NEEDED = ["usr/bin/acinus", "usr/share/acinus/scenes/lobule_hybrid.json", "usr/share/acinus/laws/hepatocyte_5e-6.json", "usr/share/doc/acinus/copyright", "usr/share/man/man1/acinus.1.gz",
           "usr/share/doc/acinus/examples/tutorial/clump.json", "usr/lib/python3/dist-packages/acinus/run.py",
           "usr/lib/cmake/acinus/acinus-config.cmake", "usr/include/acinus/coupling/simulation.hpp"]
 
@@ -66,6 +66,10 @@ def run_unpacked(package, folder):
     def acinus(*words):
         return call(*hidden, program, *words, cwd=work)
 
+    if shutil.which("man"):
+        page = subprocess.run(["man", "--warnings", "-l", root / "usr/share/man/man1/acinus.1.gz"], capture_output=True, text=True,
+                              env={**os.environ, "MANWIDTH": "100"})
+        assert page.returncode == 0 and not page.stderr and "acinus infer" in page.stdout, page.stderr
     assert "lobule_hybrid" in acinus("list")
     acinus("new", "lobule_hybrid", "mine")
     acinus("run", "mine/lobule_hybrid.json", "--until", "1 s", "--out", "job.run", "--quiet")

@@ -183,6 +183,20 @@ TEST(Cli, PeriodsThatFillTheDiskOrNeverEndAreRefused) {
   EXPECT_EQ(call("check " + kScene + " --set time.end=1h --set 'output.every=0.0036 s'").code, 0);
 }
 
+TEST(Cli, ManualPageHasEveryCommandAndNoStrayRequest) {
+  const std::string page = call("explain --man").text;
+  for (const char* command : {"run", "explain", "infer", "permedcoe", "bench"})
+    EXPECT_CONTAINS(page, fmt::format("\n.SS acinus {}\n", command));
+  EXPECT_CONTAINS(page, "\n.TP\n\\fB\\-\\-out\\fR DIR\nrun folder");
+  EXPECT_CONTAINS(page, "Exit codes: 0 done");
+  std::istringstream lines(page);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with('.')) continue;
+    const std::string request = line.substr(0, line.find(' '));
+    EXPECT_CONTAINS(" .TH .ad .SH .SS .TP .PP .nf .fi .B .I ", " " + request + " ") << line;
+  }
+}
+
 TEST(Cli, CheckPrintsTheReportOfTheReader) {
   const Outcome outcome = call("check " + kScene + " --set cells.mode=dcm");
   EXPECT_EQ(outcome.code, 2);
