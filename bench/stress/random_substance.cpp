@@ -36,6 +36,7 @@ class SubstanceDrawing {
   Json draw_substance(int number);
   Json draw_exchange(int number);
   Json draw_rule(int number);
+  void add_rules_of_exchange(const Json& exchange, int n_substance, Json& rules);
 
   SubstanceSetting setting_;
   UniformStream random_;
@@ -113,6 +114,24 @@ Json SubstanceDrawing::draw_rule(int number) {
   return r;
 }
 
+/// Rules of secretion and uptake, drawn last.
+void SubstanceDrawing::add_rules_of_exchange(const Json& exchange, int n_substance, Json& rules) {
+  for (const Json& e : exchange)
+    for (const char* behaviour : {"secretion", "uptake"}) {
+      const bool wanted = chance(0.3);
+      const int signal = chance(0.5) ? 0 : n_substance - 1;
+      const double half = near(10), power = decades(0.5, 20);
+      if (!wanted || !e.contains(behaviour)) continue;
+      Json r = {{"signal", fmt::format("substance_{}", signal)},
+                {"behaviour", behaviour},
+                {"of", e["substance"]},
+                {"half_max", half},
+                {"power", power}};
+      if (chance(0.5)) r["direction"] = "decreases";
+      rules.push_back(r);
+    }
+}
+
 std::string SubstanceDrawing::draw() {
   if (!chance(kShare)) return "{}";
   Json scene;
@@ -125,13 +144,14 @@ std::string SubstanceDrawing::draw() {
   }
   scene["substances"] = substances;
   if (!exchange.empty()) scene["cell_types"]["cell"]["exchange"] = exchange;
-  if (!rules.empty()) scene["rules"] = rules;
   scene["substance_grid"] = {
       {"spacing", fmt::format("{:.5g} um", setting_.radius * random_.uniform(0.6, 1.4))},
       {"margin", fmt::format("{:.5g} um", setting_.radius * random_.uniform(2, 6))}};
   if (chance(0.3))
     scene["substance_grid"]["step"] =
         fmt::format("{:.5g} s", setting_.end * random_.uniform(0.002, 0.02));
+  add_rules_of_exchange(exchange, n, rules);
+  if (!rules.empty()) scene["rules"] = rules;
   return scene.dump();
 }
 

@@ -12,6 +12,7 @@
 #include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
 #include "coupling/substances/insides.hpp"
+#include "coupling/substances/responses.hpp"
 #include "coupling/world/cell.hpp"
 #include "substances/diffusion.hpp"
 
@@ -64,8 +65,11 @@ bool is_dissolving(const State& s, const Cell& c) {
 }
 
 /// Exchange of a cell per volume; that of its surface is spread over its volume.
-substances::Exchange exchange_of(const Substance& substance, const State& s, const Cell& c,
-                                 std::span<const substances::VoxelShare> shares) {
+/// @param signal  of cell_concentrations; may be empty without rules of secretion and uptake
+substances::Exchange exchange_of(const SubstanceParams& p, std::size_t k, const State& s,
+                                 const Cell& c, std::span<const substances::VoxelShare> shares,
+                                 const std::vector<std::vector<double>>& signal) {
+  const Substance& substance = p.substance[k];
   const auto type = static_cast<std::size_t>(type_of(s, c));
   if (type >= substance.exchange.size() || is_dissolving(s, c)) return {};
   const CellExchange& of_type = substance.exchange[type];
@@ -77,15 +81,20 @@ substances::Exchange exchange_of(const Substance& substance, const State& s, con
     e.secretion += of_type.secretion_per_area * area / volume;
     e.uptake += of_type.uptake_per_area * area / volume;
   }
+  const ExchangeFactors f =
+      exchange_factors(p, static_cast<int>(k), static_cast<int>(type), c.index, signal);
+  e.secretion *= f.secretion;
+  e.uptake *= f.uptake;
+  e.uptake_max *= f.uptake;
   return e;
 }
 
-std::vector<substances::Exchange> exchange_of_cells(const Substance& substance, const State& s,
-                                                    const std::vector<Cell>& cells,
-                                                    const substances::Shares& shares) {
+std::vector<substances::Exchange> exchange_of_cells(
+    const SubstanceParams& p, std::size_t k, const State& s, const std::vector<Cell>& cells,
+    const substances::Shares& shares, const std::vector<std::vector<double>>& signal) {
   std::vector<substances::Exchange> exchange(cells.size());
-  for_each_index(cells.size(), cells.size() > kParallelShares, [&](std::size_t k) {
-    exchange[k] = exchange_of(substance, s, cells[k], shares.of(k));
+  for_each_index(cells.size(), cells.size() > kParallelShares, [&](std::size_t c) {
+    exchange[c] = exchange_of(p, k, s, cells[c], shares.of(c), signal);
   });
   return exchange;
 }
@@ -137,6 +146,12 @@ std::vector<std::vector<double>> of_each_cell(const World& world, const F& f) {
   return value;
 }
 
+/// Concentrations that rules of secretion and uptake respond to; empty without such rules.
+std::vector<std::vector<double>> signals_of_exchange(const World& world) {
+  if (!has_exchange_rule(world.params.substances)) return {};
+  return cell_concentrations(world);
+}
+
 }  // namespace
 
 void begin_substances(const SubstanceParams& p, State& s) {
@@ -185,6 +200,7 @@ void advance_substances(World& world, double step, SubstanceWorkspace& work, Tim
     work.sized = true;
   }
   const std::vector<Cell> cells = list_cells(s);
+  const std::vector<std::vector<double>> signal = signals_of_exchange(world);
   SharesOfCells all(p, s);
   const OpenSpaces spaces = find_open_spaces(world, work.obstacles);
   substances::Parts parts;
@@ -201,7 +217,7 @@ void advance_substances(World& world, double step, SubstanceWorkspace& work, Tim
                                            : move_to_open(everywhere, *space);
     const substances::Shares& shares = space == nullptr ? everywhere : in_open;
     const std::vector<substances::Exchange> exchange =
-        exchange_of_cells(substance, s, cells, shares);
+        exchange_of_cells(p, k, s, cells, shares, signal);
     const double middle = time_of(s) - 0.5 * step;
     substances::Advance how{step, p.longest_step, p.tolerance};
     if (!substance.course.entry.empty()) how.supply = substance.course.at(middle);
@@ -259,11 +275,12 @@ std::vector<std::vector<double>> cell_concentrations(const World& world) {
 
 std::vector<std::vector<double>> cell_exchange_rates(const World& world) {
   const State& s = world.state;
+  const std::vector<std::vector<double>> signal = signals_of_exchange(world);
   return of_each_cell(
       world, [&](std::size_t k, const Cell& c, std::span<const substances::VoxelShare> shares,
                  const std::vector<double>& concentration) {
         const substances::Exchange exchange =
-            exchange_of(world.params.substances.substance[k], s, c, shares);
+            exchange_of(world.params.substances, k, s, c, shares, signal);
         double sum = 0;
         for (const substances::VoxelShare& share : shares)
           sum += share.volume * substances::exchange_rate(exchange, concentration[share.voxel]);

@@ -62,6 +62,24 @@ bool dies_of_signal(const World& world, const Cell& c,
   return false;
 }
 
+bool has_exchange_rule(const SubstanceParams& p) {
+  return has_rule(p, Behaviour::kSecretion) || has_rule(p, Behaviour::kUptake);
+}
+
+ExchangeFactors exchange_factors(const SubstanceParams& p, int substance, int type,
+                                 std::size_t index,
+                                 const std::vector<std::vector<double>>& concentration) {
+  ExchangeFactors factors;
+  for (const SignalRule& r : p.rule) {
+    if (r.of != substance) continue;
+    if (concerns(r, Behaviour::kSecretion, type))
+      factors.secretion *= signal_response(r, concentration[r.signal][index]);
+    if (concerns(r, Behaviour::kUptake, type))
+      factors.uptake *= signal_response(r, concentration[r.signal][index]);
+  }
+  return factors;
+}
+
 void update_guidance(const SubstanceParams& p, State& s) {
   if (p.leader_signal < 0 && !has_rule(p, Behaviour::kChemotaxis) &&
       !has_rule(p, Behaviour::kMotility))

@@ -1,5 +1,6 @@
 #pragma once
-/// Responses of cells to substances: growth, death, motility, chemotaxis, the heading of leaders.
+/// Responses of cells to substances: growth, death, motility, chemotaxis, the heading of leaders,
+/// secretion and uptake of substances.
 
 #include <vector>
 
@@ -23,6 +24,20 @@ void scale_growth(const World& world, const std::vector<std::vector<double>>& co
 /// probability is 1 - exp(-rate response grid).
 bool dies_of_signal(const World& world, const Cell& cell,
                     const std::vector<std::vector<double>>& concentration, std::int64_t interval);
+
+/// Factors on the rates of exchange of a cell with a substance.
+struct ExchangeFactors {
+  double secretion = 1, uptake = 1;
+};
+
+/// True if a rule of secretion or uptake acts.
+bool has_exchange_rule(const SubstanceParams& params);
+
+/// Products of the responses of the rules of secretion and uptake of a substance; 1 without rules.
+/// @param concentration  of cell_concentrations; may be empty without such rules
+ExchangeFactors exchange_factors(const SubstanceParams& params, int substance, int type,
+                                 std::size_t index,
+                                 const std::vector<std::vector<double>>& concentration);
 
 /// Refreshes motility, force and heading from the fields at the cells' centres. The relative
 /// difference of a concentration across a cell, d = 2 R |grad c| / c, gives both the share

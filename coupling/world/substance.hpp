@@ -35,7 +35,14 @@ struct Substance {
 };
 
 /// Behaviour of a cell that a substance changes.
-enum class Behaviour : std::uint8_t { kGrowth, kDeath, kMotility, kChemotaxis };
+enum class Behaviour : std::uint8_t {
+  kGrowth,
+  kDeath,
+  kMotility,
+  kChemotaxis,
+  kSecretion,
+  kUptake
+};
 
 /// Response of cells to a substance: a Hill function of the concentration at the cell,
 /// c^power / (half_max^power + c^power), or 1 minus it.
@@ -46,6 +53,7 @@ struct SignalRule {
   int type = -1;           ///< cell type; -1: all
   double half_max = 1;     ///< concentration
   double power = 4;
+  int of = -1;       ///< kSecretion, kUptake: index of the substance that is exchanged
   double rate = 0;   ///< 1/s, kDeath: rate at full response
   double force = 0;  ///< nN, kChemotaxis: force up the gradient at full response; < 0: down
   double sensitivity =

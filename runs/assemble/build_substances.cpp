@@ -168,6 +168,7 @@ coupling::Substance make_substance(const Scene& scene, const SubstanceBlock& b,
 coupling::SignalRule make_rule(const Scene& scene, const SignalRuleEntry& entry) {
   coupling::SignalRule rule = entry;
   rule.signal = index_of(scene, entry.substance);
+  if (!entry.exchanged.empty()) rule.of = index_of(scene, entry.exchanged);
   if (!entry.cell_type.empty())
     rule.type = static_cast<int>(
         std::distance(scene.cell_types.begin(), scene.cell_types.find(entry.cell_type)));

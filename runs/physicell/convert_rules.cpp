@@ -107,15 +107,30 @@ struct Draft {
   std::vector<std::string> substances;            ///< as in the table, in order of use
   std::map<std::string, std::vector<int>> lines;  ///< converted, by cell type and behaviour
 
-  void add_rule(const PhysiCellRule& r, const char* behaviour, double rate = 0) {
+  void add_rule(const PhysiCellRule& r, const char* behaviour, double rate = 0,
+                const std::string& exchanged = "") {
     OrderedJson rule = {{"signal", name_of(r.signal)}, {"behaviour", behaviour}};
+    if (!exchanged.empty()) rule["of"] = name_of(exchanged);
     if (r.decreases) rule["direction"] = "decreases";
     rule["cell_type"] = name_of(r.cell_type);
     rule["half_max"] = r.half_max;
     rule["power"] = r.power;
     if (rate > 0) rule["rate"] = per_minute(rate);
     rules.push_back(rule);
-    if (std::ranges::find(substances, r.signal) == substances.end()) substances.push_back(r.signal);
+    use(r.signal);
+    if (!exchanged.empty()) use(exchanged);
+  }
+  void use(const std::string& substance) {
+    if (std::ranges::find(substances, substance) == substances.end())
+      substances.push_back(substance);
+  }
+  /// Entry of cell_types.<name>.exchange.
+  OrderedJson& exchange(const PhysiCellRule& r, const std::string& substance) {
+    OrderedJson& all = type(r)["exchange"];
+    for (OrderedJson& e : all)
+      if (e["substance"] == name_of(substance)) return e;
+    all.push_back({{"substance", name_of(substance)}});
+    return all.back();
   }
   OrderedJson& type(const PhysiCellRule& r) { return types[name_of(r.cell_type)]; }
 };
@@ -176,6 +191,28 @@ RuleOutcome convert_speed(const PhysiCellRule& r, std::optional<double> base, Dr
                             name_of(r.cell_type), assumed_base(r, base))};
 }
 
+/// Rates of exchange: "VEGF secretion", "oxygen uptake".
+RuleOutcome convert_exchange(const PhysiCellRule& r, std::optional<double> base, bool secretes,
+                             Draft& draft) {
+  const std::string behaviour = secretes ? "secretion" : "uptake";
+  const std::string substance = r.behaviour.substr(0, r.behaviour.size() - behaviour.size() - 1);
+  if (r.decreases && !base)
+    return left(
+        fmt::format("the rate without the signal is not in the table: give it in 1/min, "
+                    "as --base \"{}:{}=0.001\"",
+                    r.cell_type, r.behaviour));
+  if (const auto refused = refuse_range(r, base)) return *refused;
+  const double rate = r.decreases ? *base : r.extreme;
+  if (!(rate > 0)) return left("base value 0, so it does nothing");
+  draft.add_rule(r, behaviour.c_str(), 0, substance);
+  OrderedJson& e = draft.exchange(r, substance);
+  e[behaviour] = per_minute(rate);
+  if (secretes) e["saturation"] = 1;
+  return {true, fmt::format("{} of {} at {}{}{}", behaviour, substance, per_minute(rate),
+                            secretes ? "; secretion target taken as 1, not in the table" : "",
+                            assumed_base(r, base))};
+}
+
 RuleOutcome convert(const PhysiCellRule& r, std::optional<double> base, Draft& draft) {
   if (r.signal.ends_with(" gradient"))
     return left("signal: rules.behaviour = chemotaxis follows gradients");
@@ -184,13 +221,16 @@ RuleOutcome convert(const PhysiCellRule& r, std::optional<double> base, Draft& d
     return convert_growth(r, base, draft);
   if (r.behaviour == "apoptosis" || r.behaviour == "necrosis") return convert_death(r, base, draft);
   if (r.behaviour == "migration speed") return convert_speed(r, base, draft);
-  for (const char* ending :
-       {" secretion", " uptake", " export", " secretion target", " secretion saturation density"})
+  if (r.behaviour.ends_with(" secretion")) return convert_exchange(r, base, true, draft);
+  if (r.behaviour.ends_with(" uptake")) return convert_exchange(r, base, false, draft);
+  for (const char* ending : {" export", " secretion target", " secretion saturation density"})
     if (r.behaviour.ends_with(ending))
-      return left("behaviour: rates of cell_types.<name>.exchange do not depend on signals");
+      return left("behaviour: only secretion and uptake of cell_types.<name>.exchange respond");
   if (const char* instead = find_behaviour(r.behaviour))
     return left(fmt::format("behaviour: {}", instead));
-  return left("behaviour: unknown. Known: cycle entry, apoptosis, necrosis, migration speed");
+  return left(
+      "behaviour: unknown. Known: cycle entry, apoptosis, necrosis, migration speed, "
+      "<substance> secretion, <substance> uptake");
 }
 
 std::optional<double> base_of(const PhysiCellRule& r, const BaseValues& base) {
@@ -247,7 +287,7 @@ void note_joint_rules(const Draft& draft, std::vector<RuleRemark>& remarks) {
       if (r.line == lines.back())
         r.text += fmt::format(
             "; {} rules act on this behaviour: PhysiCell joins them in one "
-            "response, here growth and motility multiply and rates of death add",
+            "response, here rates of death add and all others multiply",
             lines.size());
   }
 }

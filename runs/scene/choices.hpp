@@ -71,7 +71,8 @@ inline constexpr const char* kChoices<CellPassage> = "pass|keep_out|membrane";
 template <>
 inline constexpr const char* kChoices<BoxFace> = "x_low|x_high|y_low|y_high|z_low|z_high";
 template <>
-inline constexpr const char* kChoices<coupling::Behaviour> = "growth|death|motility|chemotaxis";
+inline constexpr const char* kChoices<coupling::Behaviour> =
+    "growth|death|motility|chemotaxis|secretion|uptake";
 template <>
 inline constexpr const char* kChoices<coupling::Lattice> = "fcc|bcc";
 

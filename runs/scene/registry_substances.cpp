@@ -227,7 +227,8 @@ void describe_signal_rule(Visitor& v, SignalRuleEntry& b) {
       {.name = "behaviour",
        .meaning = "what responds. growth: factor on the rate of growth, 0 = rest; death: rate at "
                   "which cells die as cell.death says; motility: factor on cell.diffusion; "
-                  "chemotaxis: force along the gradient",
+                  "chemotaxis: force along the gradient; secretion, uptake: factor on these rates "
+                  "of cell.exchange with a substance",
        .required = true},
       b.behaviour);
   choice(v,
@@ -246,6 +247,14 @@ void describe_signal_rule(Visitor& v, SignalRuleEntry& b) {
           .meaning = "steepness of the response; a large one makes half_max a threshold",
           .range = {.low = 0, .high = 1000, .low_open = true}},
          b.power);
+  v.when(
+      b.behaviour == coupling::Behaviour::kSecretion || b.behaviour == coupling::Behaviour::kUptake,
+      "behaviour = secretion or uptake", [&b](Visitor& w) {
+        w.text({.name = "of",
+                .meaning = "name of the substance that is secreted or taken up",
+                .required = true},
+               b.exchanged);
+      });
   v.when(b.behaviour == coupling::Behaviour::kDeath, "behaviour = death", [&b](Visitor& w) {
     w.real({.name = "rate",
             .meaning = "rate of death at full response",

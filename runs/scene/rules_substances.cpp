@@ -71,11 +71,33 @@ void check_exchange(const Scene& scene, Report& report) {
   }
 }
 
+/// Requires a cell type that a rule of secretion or uptake changes.
+void check_exchanged(const Scene& scene, const SignalRuleEntry& r, const std::string& pointer,
+                     Report& report) {
+  const bool secretes = r.behaviour == coupling::Behaviour::kSecretion;
+  for (const auto& [name, type] : scene.cell_types)
+    for (const ExchangeEntry& e : type.exchange)
+      if (e.substance == r.exchanged && (r.cell_type.empty() || r.cell_type == name) &&
+          (secretes ? e.secretion > 0 || e.secretion_per_area > 0
+                    : e.uptake > 0 || e.uptake_max > 0 || e.uptake_per_area > 0))
+        return;
+  report.add_relation(
+      {pointer + "/of", "/cell_types"}, "\"" + r.exchanged + "\"",
+      fmt::format("{} {} of it: the rule is a factor on that of "
+                  "cell_types.<name>.exchange",
+                  r.cell_type.empty() ? "no cell type has" : "cell type " + r.cell_type + " has no",
+                  secretes ? "secretion" : "uptake"));
+}
+
 void check_signal_rules(const Scene& scene, Report& report) {
   for (std::size_t k = 0; k < scene.rules.size(); ++k) {
     const SignalRuleEntry& r = scene.rules[k];
     const std::string pointer = fmt::format("/rules/{}", k);
     check_substance_name(scene, r.substance, pointer + "/signal", report);
+    check_substance_name(scene, r.exchanged, pointer + "/of", report);
+    const std::vector<std::string> known = substance_names(scene);
+    if (std::ranges::find(known, r.exchanged) != known.end())
+      check_exchanged(scene, r, pointer, report);
     if (r.cell_type.empty() || scene.cell_types.contains(r.cell_type)) continue;
     std::vector<std::string> names;
     for (const auto& [name, type] : scene.cell_types) names.push_back(name);

@@ -69,6 +69,7 @@ struct ExchangeEntry : coupling::CellExchange {
 struct SignalRuleEntry : coupling::SignalRule {
   std::string substance;  ///< key "signal"
   std::string cell_type;  ///< empty: all
+  std::string exchanged;  ///< key "of"
 };
 
 }  // namespace acinus::runs

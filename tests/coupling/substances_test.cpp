@@ -141,6 +141,55 @@ TEST(Substances, FlatFieldsGuideNobody) {
   EXPECT_EQ(w.state.guidance[0].heading, Vec3(0, 0, 0));
 }
 
+TEST(Substances, SecretionAndUptakeRespond) {
+  World w = make_test_world({{Vec3(60, 100, 100), true}, {Vec3(140, 100, 100), false}});
+  add_ramp(w, 1, 3);
+  SubstanceParams& p = w.params.substances;
+  CellExchange e;
+  e.secretion = 0.2;
+  e.uptake_max = 0.4;
+  e.half_max = 1;
+  Substance drug;
+  drug.name = "drug";
+  drug.exchange.assign(w.params.dcm.size(), e);
+  p.substance.push_back(drug);
+  SubstanceState field;
+  field.concentration.assign(p.grid.n_voxel(), 1.0);
+  w.state.substance.push_back(field);
+  const std::vector<std::vector<double>> before = cell_exchange_rates(w);
+  SignalRule secretes, takes;
+  secretes.behaviour = Behaviour::kSecretion;
+  secretes.decreases = true;
+  takes.behaviour = Behaviour::kUptake;
+  for (SignalRule* r : {&secretes, &takes}) {
+    r->half_max = 2;
+    r->power = 3;
+    r->of = 1;
+  }
+  p.rule = {secretes, takes};
+  const std::vector<std::vector<double>> signal = cell_concentrations(w),
+                                         after = cell_exchange_rates(w);
+  const substances::Shares shares = share_cells(p, w.state);
+  std::size_t body = 0;
+  double gained = 0;
+  for_each_cell(w.state, [&](const Cell& c) {
+    double volume = 0;
+    for (const substances::VoxelShare& s : shares.of(body++)) volume += s.volume;
+    const double falls = signal_response(secretes, signal[0][c.index]),
+                 rises = signal_response(takes, signal[0][c.index]);
+    EXPECT_NEAR(before[1][c.index], volume * (0.2 - 0.4 / 2), 1e-12 * volume);
+    EXPECT_NEAR(after[1][c.index], volume * (0.2 * falls - 0.4 / 2 * rises), 1e-12 * volume);
+    EXPECT_EQ(after[0][c.index], 0);  // of the signal itself
+    gained += after[1][c.index];
+  });
+  EXPECT_GT(gained, 0);
+  SubstanceWorkspace work;
+  Timings timings;
+  w.state.clock.phase = Phase::kRun;
+  advance_substances(w, 1e-3, work, timings);
+  EXPECT_NEAR(w.state.substance[1].secreted, 1e-3 * gained, 1e-3 * 1e-3 * gained);
+}
+
 TEST(Substances, FieldsAdvanceWithEveryStep) {
   World w = make_test_world({{Vec3(100, 100, 100), false}}, 60);
   add_ramp(w, 5, 5);

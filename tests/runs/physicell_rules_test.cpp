@@ -119,6 +119,29 @@ TEST(PhysiCellRules, RangesThatNoResponseHasAreLeftOut) {
   EXPECT_CONTAINS(remark("c,o,increases,apoptosis,1,1,1,1").text, "dead cells do not respond");
 }
 
+TEST(PhysiCellRules, RatesOfExchangeAreConverted) {
+  const Read r = convert(
+      "c,oxygen,decreases,VEGF secretion,0,5,4,0\nc,drug,increases,drug uptake,0.3,2,1,0\n"
+      "c,drug,increases,drug export,0.3,2,1,0",
+      {{"VEGF secretion", 0.12}});
+  EXPECT_EQ(r.converted.n_converted, 2U);
+  ASSERT_EQ(r.scene.rules.size(), 2U);
+  EXPECT_EQ(r.scene.rules[0].behaviour, coupling::Behaviour::kSecretion);
+  EXPECT_EQ(r.scene.rules[0].exchanged, "VEGF");
+  EXPECT_TRUE(r.scene.rules[0].decreases);
+  EXPECT_EQ(r.scene.rules[1].behaviour, coupling::Behaviour::kUptake);
+  const std::vector<ExchangeEntry>& e = r.scene.cell_types.at("c").exchange;
+  ASSERT_EQ(e.size(), 2U);
+  EXPECT_EQ(e[0].substance, "VEGF");
+  EXPECT_NEAR(e[0].secretion, 0.12 / 60, 1e-12);
+  EXPECT_EQ(e[0].saturation, 1);
+  EXPECT_NEAR(e[1].uptake, 0.3 / 60, 1e-12);
+  EXPECT_EQ(r.scene.substances.size(), 3U);
+  const ConvertedRules without = convert("c,oxygen,decreases,VEGF secretion,0,5,4,0").converted;
+  EXPECT_EQ(without.n_converted, 0U);
+  EXPECT_CONTAINS(without.remark[0].text, "give it in 1/min, as --base \"c:VEGF secretion=0.001\"");
+}
+
 TEST(PhysiCellRules, BaseValuesAreChecked) {
   EXPECT_EQ(parse_base_values({"necrosis=0.5", "a b:cycle entry=1e-3"}),
             (BaseValues{{"necrosis", 0.5}, {"a b:cycle entry", 1e-3}}));

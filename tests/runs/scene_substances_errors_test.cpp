@@ -68,6 +68,26 @@ TEST(SceneSubstancesErrors, NamesMustBeThoseOfSubstances) {
             "/rules/0/cell_type = \"b\": unknown cell type. Known: a");
 }
 
+TEST(SceneSubstancesErrors, RulesOfExchangeNameWhatIsExchanged) {
+  const auto rule = [](const std::string& behaviour, const std::string& of) {
+    return kOxygen + (R"(, "rules": [{"signal": "oxygen", "behaviour": ")" + behaviour +
+                      R"(", "half_max": 1)" + of + "}]");
+  };
+  const char* const secretes = R"("exchange": [{"substance": "oxygen", "secretion": "1 1/s"}])";
+  EXPECT_NO_THROW(parse_scene(
+      scene_with_substances(rule("secretion", R"(, "of": "oxygen")"), secretes), "scene.json"));
+  EXPECT_EQ(
+      substance_complaint(scene_with_substances(rule("uptake", R"(, "of": "oxygen")"), secretes)),
+      "/rules/0/of = \"oxygen\": no cell type has uptake of it: the rule is a factor on that of "
+      "cell_types.<name>.exchange");
+  EXPECT_EQ(
+      substance_complaint(scene_with_substances(rule("uptake", R"(, "of": "oxigen")"), secretes)),
+      "/rules/0/of = \"oxigen\": is no substance. Did you mean \"oxygen\"?");
+  EXPECT_EQ(substance_complaint(scene_with_substances(rule("uptake", ""), secretes))
+                .substr(0, std::string("/rules/0/of: is missing").size()),
+            "/rules/0/of: is missing");
+}
+
 TEST(SceneSubstancesErrors, NoConcentrationIsNegative) {
   EXPECT_EQ(substance_complaint(scene_with_substances(
                 R"("substances": [{"name": "x", "diffusion": "1 um^2/s", "initial": -1}])")),
