@@ -17,11 +17,7 @@ State make_size(std::size_t n) {
   State s;
   s.position.assign((n + kLanes - 1) / kLanes * kPointStride, 0.0);
   s.lineage.resize(n);
-  s.type.resize(n);
   s.volume.resize(n);
-  s.young.resize(n);
-  s.strength.resize(n);
-  s.pull.resize(n);
   return s;
 }
 
@@ -59,27 +55,36 @@ State make_state(const std::vector<NewCell>& cells) {
   for (std::size_t c = 0; c < cells.size(); ++c) {
     store_point(s.position.data(), cell_address(0, c), cells[c].center);
     s.lineage[c] = cells[c].lineage;
-    s.type[c] = cells[c].type;
     s.volume[c] = Ramp::constant(sphere_volume(cells[c].radius));
-    s.strength[c] = cells[c].strength;
-    s.young[c] = cells[c].young;
-    s.pull[c] = cells[c].pull;
   }
+  const std::size_t n = cells.size();
+  s.type = {n, [&](std::size_t c) { return cells[c].type; }};
+  s.strength = {n, [&](std::size_t c) { return cells[c].strength; }};
+  s.young = {n, [&](std::size_t c) { return cells[c].young; }};
+  s.pull = {n, [&](std::size_t c) { return cells[c].pull; }};
   return s;
 }
 
 State compose(std::span<const SelectedCell<State>> cells) {
   State s = make_size(cells.size());
   for_each_index(cells.size(), worth_threads(s.n_row()), [&](std::size_t k) {
-    const auto& [from, cell, type] = cells[k];
+    const State* const from = cells[k].state;
+    const std::size_t cell = cells[k].index;
     store_point(s.position.data(), cell_address(0, k), center_of(*from, cell));
     s.lineage[k] = from->lineage[cell];
-    s.type[k] = type < 0 ? from->type[cell] : type;
     s.volume[k] = from->volume[cell];
-    s.young[k] = from->young[cell];
-    s.strength[k] = from->strength[cell];
-    s.pull[k] = from->pull[cell];
   });
+  const auto copy = [&](auto State::*values) {
+    s.*values = {cells.size(),
+                 [&](std::size_t k) { return (cells[k].state->*values)[cells[k].index]; }};
+  };
+  copy(&State::strength);
+  copy(&State::young);
+  copy(&State::pull);
+  s.type = {cells.size(), [&](std::size_t k) {
+              const auto& [from, cell, type] = cells[k];
+              return type < 0 ? from->type[cell] : type;
+            }};
   s.touching = find_touching(cells);
   return s;
 }

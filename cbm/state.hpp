@@ -9,6 +9,7 @@
 
 #include "core/numbers/lanes.hpp"
 #include "core/numbers/ramp.hpp"
+#include "core/parallel/paged_values.hpp"
 #include "core/selected_cell.hpp"
 #include "core/vec.hpp"
 #include "solve/system.hpp"
@@ -20,11 +21,11 @@ namespace acinus::cbm {
 struct State {
   std::vector<double> position;       ///< [rows][3][lane] um
   std::vector<std::int64_t> lineage;  ///< [n_cell]
-  std::vector<int> type;              ///< [n_cell]
   std::vector<Ramp> volume;           ///< [n_cell] um^3, intrinsic volume
-  std::vector<Ramp> strength;         ///< [n_cell] 0..1, rises after birth; see CellData
-  std::vector<double> young;          ///< [n_cell] kPa
-  std::vector<Vec3> pull;             ///< [n_cell] nN, constant load
+  PagedValues<int> type;              ///< [n_cell]
+  PagedValues<Ramp> strength;         ///< [n_cell] 0..1, rises after birth; see CellData
+  PagedValues<double> young;          ///< [n_cell] kPa
+  PagedValues<Vec3> pull;             ///< [n_cell] nN, constant load
   /// Adhesive contacts in existence, as (cell, cell) or (cell, ~boundary key); sorted. JKR contact
   /// has hysteresis, so this is state.
   std::vector<std::pair<int, int>> touching;

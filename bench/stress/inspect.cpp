@@ -100,7 +100,7 @@ std::map<std::int64_t, StartOfCell> origins(const coupling::World& start, const 
     const double smallest = r.unit * (death.lysis ? death.final_volume : 1);
     StartOfCell& o = all[r.founder];
     o.center = coupling::center_of(start.state, c);
-    o.pull = (c.deformable ? start.state.dcm.pull : start.state.cbm.pull)[c.at].norm();
+    o.pull = (c.deformable ? start.state.dcm.pull[c.at] : start.state.cbm.pull[c.at]).norm();
     // Cells may change their model; neighbours may cover a sphere but for the least share that is
     // always free.
     const dcm::Params& shell = start.params.dcm[r.type];

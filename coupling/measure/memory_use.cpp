@@ -19,8 +19,8 @@ std::size_t measure_positions(const State& s) {
 /// Shapes of birth, tensions of edges, and all that a state has of single cells.
 std::size_t measure_cell_data(const State& s) {
   std::size_t bytes = memory_of(s.dcm.lineage) + memory_of(s.dcm.volume) + memory_of(s.dcm.pull) +
-                      memory_of(s.cbm.lineage) + memory_of(s.cbm.type) + memory_of(s.cbm.volume) +
-                      memory_of(s.cbm.strength) + memory_of(s.cbm.young) + memory_of(s.cbm.pull) +
+                      memory_of(s.cbm.lineage) + s.cbm.type.memory() + memory_of(s.cbm.volume) +
+                      s.cbm.strength.memory() + s.cbm.young.memory() + s.cbm.pull.memory() +
                       memory_of(s.leader) + memory_of(s.asleep) + memory_of(s.cycle);
   for (const dcm::BirthShape& b : s.dcm.birth)
     bytes += sizeof b + b.edge.memory() + b.triangle.memory() + b.link.memory();

@@ -145,7 +145,7 @@ void extract_at_rest(const World& world, CellSet moving, CellSet constrained, Su
   for (Ramp& v : s.dcm.volume) v = frozen(v, now);
   for (dcm::BirthShape& b : s.dcm.birth) b.weight = frozen(b.weight, now);
   for (Ramp& v : s.cbm.volume) v = frozen(v, now);
-  for (Ramp& v : s.cbm.strength) v = frozen(v, now);
+  s.cbm.strength.replace([&](const Ramp& v) { return frozen(v, now); });
   s.balance = {};
   s.clock.step = kFirstSubworldStep;
   s.clock.last_step = 0;

@@ -90,8 +90,8 @@ std::uint64_t hash_state(const State& s) {
   for (const Eigen::Quaterniond& q : s.tree.rotation) add(std::array{q.w(), q.x(), q.y(), q.z()});
   add(s.dcm.lineage);
   add(s.cbm.lineage);
-  add(s.cbm.young);
-  const auto add_ramps = [&](const std::vector<Ramp>& v) {
+  for (const double young : s.cbm.young) add(std::array{young});
+  const auto add_ramps = [&](const auto& v) {
     for (const Ramp& r : v) add(std::array{r.from, r.to, r.start, r.end});
   };
   add_ramps(s.dcm.volume);

@@ -117,7 +117,10 @@ void SteppedScene::set_pull(std::int64_t lineage, const Vec3& force) {
   coupling::State& s = simulation_.world().state;
   const coupling::Cell c = require_cell(s, lineage);
   check(is_finite(force), fmt::format("pull on cell {}: is not finite", lineage));
-  (c.deformable ? s.dcm.pull : s.cbm.pull)[c.at] = force;
+  if (c.deformable)
+    s.dcm.pull[c.at] = force;
+  else
+    s.cbm.pull.set(c.at, force);
 }
 
 }  // namespace acinus::python

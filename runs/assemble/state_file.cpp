@@ -164,12 +164,13 @@ void get_spheres(const io::CheckpointData& d, cbm::State& s) {
   const std::size_t n = s.lineage.size();
   s.position = d.numbers("cbm/position");
   const std::vector<std::int64_t>& type = d.integers("cbm/type");
-  s.type.clear();
-  for (const std::int64_t t : type) s.type.push_back(as_int(d, "cbm/type", t));
+  std::vector<int> types;
+  for (const std::int64_t t : type) types.push_back(as_int(d, "cbm/type", t));
+  s.type = PagedValues(types);
   s.volume = unflatten(d.numbers("cbm/volume"));
-  s.strength = unflatten(d.numbers("cbm/strength"));
-  s.young = d.numbers("cbm/young");
-  s.pull = unflatten_points(d.numbers("cbm/pull"));
+  s.strength = PagedValues(unflatten(d.numbers("cbm/strength")));
+  s.young = PagedValues(d.numbers("cbm/young"));
+  s.pull = PagedValues(unflatten_points(d.numbers("cbm/pull")));
   check_same(d, "cbm/position", s.position.size(), (n + kLanes - 1) / kLanes * kPointStride);
   check_same(d, "cbm/type", s.type.size(), n);
   check_same(d, "cbm/volume", s.volume.size(), n);
@@ -329,7 +330,7 @@ void put_state(const coupling::State& s, io::CheckpointData& d) {
   d.put("cbm/type", as_integers(s.cbm.type));
   d.put("cbm/volume", flatten(s.cbm.volume));
   d.put("cbm/strength", flatten(s.cbm.strength));
-  d.put("cbm/young", s.cbm.young);
+  d.put("cbm/young", std::vector<double>(s.cbm.young.begin(), s.cbm.young.end()));
   d.put("cbm/pull", flatten(s.cbm.pull));
   std::vector<std::int64_t> touching;
   for (const auto& [a, b] : s.cbm.touching) touching.insert(touching.end(), {a, b});

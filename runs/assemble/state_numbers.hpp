@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/error.hpp"
@@ -14,13 +15,19 @@
 
 namespace acinus::runs {
 
-template <class T>
-std::vector<std::int64_t> as_integers(const std::vector<T>& v) {
+template <class Values>
+std::vector<std::int64_t> as_integers(const Values& v) {
   return {v.begin(), v.end()};
 }
-inline std::vector<double> flatten(const std::vector<Ramp>& ramps) {
+/// Numbers of ramps or points, one after the other.
+template <class Values>
+std::vector<double> flatten(const Values& values) {
   std::vector<double> v;
-  for (const Ramp& r : ramps) v.insert(v.end(), {r.from, r.to, r.start, r.end});
+  for (const auto& x : values)
+    if constexpr (std::is_same_v<decltype(x), const Ramp&>)
+      v.insert(v.end(), {x.from, x.to, x.start, x.end});
+    else
+      v.insert(v.end(), {x.x(), x.y(), x.z()});
   return v;
 }
 inline std::vector<Ramp> unflatten(const std::vector<double>& v) {
@@ -30,11 +37,6 @@ inline std::vector<Ramp> unflatten(const std::vector<double>& v) {
   return ramps;
 }
 
-inline std::vector<double> flatten(const std::vector<Vec3>& points) {
-  std::vector<double> v;
-  for (const Vec3& p : points) v.insert(v.end(), {p.x(), p.y(), p.z()});
-  return v;
-}
 inline std::vector<Vec3> unflatten_points(const std::vector<double>& v) {
   std::vector<Vec3> points;
   for (std::size_t k = 0; k + 2 < v.size(); k += 3) points.emplace_back(v[k], v[k + 1], v[k + 2]);

@@ -317,7 +317,7 @@ Compression compress_clump(const StiffnessLaw& law, double young, double smalles
   Spheres s = make_clump(0.1, 5);
   s.params[0].correction = law;
   s.params[0].young = young;
-  s.state.young.assign(s.state.n_cell(), young);
+  s.state.young.replace([&](double) { return young; });
   for (double radius : {42.0, 40.0, 37.5, 36.0, 34.5, 33.0, 0.5 * (33 + smallest), smallest}) {
     s.boundary.capsules[0].radius = radius;
     settle(s);

@@ -21,8 +21,8 @@ using reference::kEps;
 /// Same spheres with strengths from 0 to 1, some of them exactly 0 or 1.
 Spheres weakened(Spheres s, std::uint64_t seed) {
   auto random = reference::stream(seed);
-  for (Ramp& r : s.state.strength)
-    r = Ramp::constant(std::clamp(random.uniform(-0.2, 1.2), 0.0, 1.0));
+  for (std::size_t c = 0; c < s.state.n_cell(); ++c)
+    s.state.strength.set(c, Ramp::constant(std::clamp(random.uniform(-0.2, 1.2), 0.0, 1.0)));
   return s;
 }
 
@@ -95,7 +95,7 @@ TEST(Strength, OfOneIsNotLookedAtAndChangesNoBit) {
   find_contacts({s.state, s.params, s.options, {r, ones}, s.boundary}, s.work, contacts,
                 s.system.point_links);
   for (std::size_t k = 0; k < force.size(); ++k) EXPECT_EQ(s.work.force[k], force[k]);
-  s.state.strength[7] = {0, 1, 100, 200};
+  s.state.strength.set(7, {0, 1, 100, 200});
   EXPECT_EQ(strengths_at(s.state, 100)[7], 0);
   EXPECT_EQ(strengths_at(s.state, 125)[7], 0.25);
   EXPECT_EQ(strengths_at(s.state, 125)[8], 1);
@@ -149,8 +149,8 @@ TEST(Strength, ScalesContactsWithTheBoundary) {
 
 TEST(Strength, OfANeighbourIsEnoughForTheFullContact) {
   Spheres old({sphere({0, 0, 0}), sphere({22, 0, 0}), sphere({0, 22, 0})}), born = old;
-  born.state.strength[0] = Ramp::constant(0);
-  born.state.strength[2] = Ramp::constant(0);
+  born.state.strength.set(0, Ramp::constant(0));
+  born.state.strength.set(2, Ramp::constant(0));
   old.find();
   born.find();
   // Cells 0 and 2 are siblings without strength, 1 is a neighbour of 0 (and far from 2).
@@ -165,7 +165,7 @@ TEST(Strength, OfANeighbourIsEnoughForTheFullContact) {
 
 TEST(Strength, IsForSistersOnly) {
   Spheres old({sphere({0, 0, 0}), sphere({22, 0, 0}), sphere({0, 22, 0})}), born = old;
-  for (Ramp& r : born.state.strength) r = Ramp::constant(0);
+  born.state.strength.replace([](const Ramp&) { return Ramp::constant(0); });
   born.mother = {4, 5, 4};
   old.find();
   born.find();

@@ -284,7 +284,7 @@ TEST(SphereStrength, DoesNotWeakenTheInterfaceWithDeformableCells) {
   const auto look = [](double strength, Workspace& work) {
     World w = make_test_world({{Vec3::Zero(), true}, {Vec3(22.5, 2, 1), false}});
     w.params.cbm[0].correction = {{{4000, 4}}, {}, 0.2};
-    w.state.cbm.strength[0] = Ramp::constant(strength);
+    w.state.cbm.strength.set(0, Ramp::constant(strength));
     size_workspace(w, work);
     observe(w, work);
     return w;
@@ -307,10 +307,10 @@ TEST(SphereStrength, ScalesWhatIsMeasuredOfTwoYoungSpheres) {
   SizedWorkspace work(w);
   observe(w, work);
   const CellMeasure full = measure_cells(w, work)[0];
-  w.state.cbm.strength[1] = Ramp::constant(0.25);
+  w.state.cbm.strength.set(1, Ramp::constant(0.25));
   observe(w, work);
   EXPECT_EQ(measure_cells(w, work)[0].contact_force, full.contact_force) << "one cell is enough";
-  w.state.cbm.strength[0] = Ramp::constant(0.125);
+  w.state.cbm.strength.set(0, Ramp::constant(0.125));
   observe(w, work);
   const CellMeasure weak = measure_cells(w, work)[0];
   EXPECT_GT(full.contact_force, 0.1);
@@ -323,7 +323,7 @@ TEST(SphereStrength, ScalesWhatIsMeasuredOfTwoYoungSpheres) {
 TEST(SphereStrength, IsPartOfTheHash) {
   World w = make_test_world({{Vec3::Zero(), false}});
   const std::uint64_t before = hash_state(w.state);
-  w.state.cbm.strength[0] = {0, 1, 10, 20};
+  w.state.cbm.strength.set(0, {0, 1, 10, 20});
   EXPECT_NE(hash_state(w.state), before);
 }
 

@@ -42,8 +42,8 @@ void move_points(Positions& position, const Mat3& turn, const Vec3& shift, bool 
 World moved(World w, const Mat3& turn, const Vec3& shift) {
   move_points(w.state.dcm.position, turn, shift, true);
   move_points(w.state.cbm.position, turn, shift, true);
-  for (auto* pulls : {&w.state.dcm.pull, &w.state.cbm.pull})
-    for (Vec3& pull : *pulls) pull = turn * pull;
+  for (Vec3& pull : w.state.dcm.pull) pull = turn * pull;
+  w.state.cbm.pull.replace([&](const Vec3& pull) { return turn * pull; });
   for (contact::Plane& plane : w.params.boundary.planes) {
     plane.point = turn * plane.point + shift;
     plane.normal = turn * plane.normal;

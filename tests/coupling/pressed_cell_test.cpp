@@ -15,7 +15,7 @@ namespace {
 World pressed_cell(bool extrapolate) {
   World w =
       make_test_world({{Vec3(-11.5, 0, 0)}, {Vec3(11.5, 0, 0), false}, {Vec3(0, 20, 0), false}});
-  for (double& young : w.state.cbm.young) young *= 10;
+  w.state.cbm.young.replace([](double young) { return 10 * young; });
   w.params.dcm[0].local_area_modulus = 0.1;
   contact::Capsule capsule;
   capsule.center = Vec3(0, 5, 0);

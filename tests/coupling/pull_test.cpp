@@ -43,7 +43,8 @@ Apparatus pulled_by(std::vector<Pull> pull) {
 TEST(Pull, ARampMovesACellAsItsMeanDoes) {
   World ramp = two_models(), mean = two_models();
   ramp.params.apparatus = pulled_by({rising(0), rising(1)});
-  mean.state.dcm.pull[0] = mean.state.cbm.pull[0] = Vec3(0, 0.5, 0);
+  mean.state.dcm.pull[0] = Vec3(0, 0.5, 0);
+  mean.state.cbm.pull.set(0, Vec3(0, 0.5, 0));
   Simulation a(ramp), b(mean);
   EXPECT_TRUE(a.run_until(20, {}).ok);
   EXPECT_TRUE(b.run_until(10, {}).ok);

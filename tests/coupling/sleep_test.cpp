@@ -141,7 +141,7 @@ TEST(Sleep, APulledCellWakesAtTheNextLook) {
   // 5 nN over 4 pi (12 um)^2 are 2.8e-3 kPa: above twice the limit.
   const auto index = index_cells(w.state);
   w.state.dcm.pull[index.at(2).at] = Vec3(0, 0, 5);
-  w.state.cbm.pull[index.at(5).at] = Vec3(0, 0, 5);
+  w.state.cbm.pull.set(index.at(5).at, Vec3(0, 0, 5));
   run_for(w, work, 599);
   EXPECT_EQ(count_asleep(w.state), 6) << "asleep until the look";
   run_for(w, work, 1);

@@ -57,7 +57,7 @@ TEST(Subworld, NothingMovesByItselfThere) {
   w.state.clock.time = 500;
   w.state.dcm.volume[2] = {7000, 14000, 0, 1000};
   w.state.cbm.volume[2] = {7000, 14000, 0, 1000};
-  w.state.cbm.strength[3] = {0, 1, 0, 1000};
+  w.state.cbm.strength.set(3, {0, 1, 0, 1000});
   Subworld sub;
   extract_at_rest(w, kMiddle, {{1, 3}, {1, 3}}, sub);
   const State& s = sub.world.state;
@@ -105,10 +105,11 @@ TEST(Subworld, MovesAsTheWholeDoesInAShortStep) {
   for (cbm::Params& p : w.params.cbm) p.cell_friction = 0;
   w.params.interface.friction = 0;
   SizedWorkspace work(w);
-  w.state.dcm.pull[2] = w.state.cbm.pull[2] = Vec3::Zero();
+  w.state.dcm.pull[2] = Vec3::Zero();
+  w.state.cbm.pull.set(2, Vec3::Zero());
   ASSERT_TRUE(run_until(w, work, 10 * 3600));  // neighbours at rest
   w.state.dcm.pull[2] = Vec3(0.1, 0.5, 0.2);
-  w.state.cbm.pull[2] = Vec3(-0.1, 0.2, 0);
+  w.state.cbm.pull.set(2, Vec3(-0.1, 0.2, 0));
   std::vector<double> wrong;
   for (double step : {2.56e-2, 1.28e-2, 6.4e-3}) {
     World whole = w;

@@ -23,13 +23,17 @@ World make_tissue(Tissue tissue, std::uint64_t seed) {
   World w = make_clump_world(4, distance, [&](int) { return random.uniform() < 0.5; });
   // About the law that calibration finds for these cells.
   w.params.cbm[0].correction = {{{5000, 4}}, {}, 0.19, 0};
-  std::ranges::fill(w.state.cbm.young, 0.035);
+  w.state.cbm.young.replace([](double) { return 0.035; });
   w.params.cbm[0].young = 0.035;
   for_each_cell(w.state, [&](const Cell& c) {
     const Vec3 x = center_of(w.state, c);
-    if (tissue == Tissue::kSheared)
-      (c.deformable ? w.state.dcm.pull[c.at] : w.state.cbm.pull[c.at]) =
-          Vec3(x.z() > 0 ? 0.5 : -0.5, 0, 0);
+    if (tissue == Tissue::kSheared) {
+      const Vec3 pull(x.z() > 0 ? 0.5 : -0.5, 0, 0);
+      if (c.deformable)
+        w.state.dcm.pull[c.at] = pull;
+      else
+        w.state.cbm.pull.set(c.at, pull);
+    }
     if (tissue == Tissue::kGrowing) {
       Ramp& v = volume_of(w.state, c);
       v = {v.from, 1.5 * v.from, 0, 12 * 3600};

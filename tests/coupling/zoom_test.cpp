@@ -27,7 +27,7 @@ TEST(Zoom, NothingChangesWhereNoCellCrossesARegion) {
 TEST(Zoom, ACellKeepsWhatItIsBesideItsModel) {
   World w = make_clump_world(3, 22, [](int) { return false; });
   w.state.cbm.volume[13] = {7000, 7500, 0, 1e5};
-  w.state.cbm.pull[13] = Vec3(0.1, 0.2, 0.3);
+  w.state.cbm.pull.set(13, Vec3(0.1, 0.2, 0.3));
   w.state.cycle.assign(27, Cycle{});
   w.state.cycle[13].duration = 123;
   SizedWorkspace work(w);

@@ -25,7 +25,7 @@ coupling::State two_spheres() {
 
 TEST(StateFile, KeepsTheStrengthOfNewBornSpheres) {
   coupling::State saved = two_spheres(), loaded = saved;
-  saved.cbm.strength[1] = {0, 1, 100, 8740};
+  saved.cbm.strength.set(1, {0, 1, 100, 8740});
   io::CheckpointData data;
   put_state(saved, data);
   get_state(data, kTypes, loaded);
