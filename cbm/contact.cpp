@@ -1,6 +1,7 @@
 #include "cbm/contact.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "cbm/obstacle_contacts.hpp"
@@ -19,10 +20,11 @@ using contact::Contact;
 
 /// Moduli of all cells, from the overlaps where a law needs them.
 void compute_moduli(const State& s, std::span<const Params> params, ContactWorkspace& work) {
-  work.modulus.resize(s.n_cell());
+  set_size(work.modulus, s.n_cell());
   const bool corrects = has_correction(params);
   work.coupling.assign(corrects ? s.n_cell() : 0, 0.0);
   for (std::size_t i = 0; i < s.n_cell(); ++i) {
+    if (work.is_far(i)) continue;
     const StiffnessLaw& law = params[s.type[i]].correction;
     if (!law.corrects()) {
       work.modulus[i] = {s.young[i], 0};
@@ -127,24 +129,58 @@ void count_overlap(ContactWorkspace& work, std::size_t cell, double relative, do
   if (!work.overlap_count.empty() && relative > 0) work.overlap_count[cell] += share;
 }
 
-bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {
+namespace {
+
+/// True if the listed pairs include all near ones: no cell of any process moved or grew too far.
+bool pairs_hold(const ContactInput& in, const ContactWorkspace& work, const Ranks& ranks) {
+  const State& s = in.state;
+  if (work.list_position.size() != s.position.size() || work.list_radius.size() != s.n_cell())
+    return false;
+  double moved = 0, wider = 0;
+  for (std::size_t i = 0; i < s.n_cell(); ++i) {
+    if (work.is_ghost(i)) continue;
+    const Vec3 before = load_point(work.list_position.data(), cell_address(0, i));
+    moved = std::max(moved, (center_of(s, i) - before).norm());
+    wider = std::max(wider, in.cells.radius[i] - work.list_radius[i]);
+  }
+  if (in.vessel_row != contact::kAtRest)
+    moved =
+        std::max(moved, geometry::largest_motion(in.boundary.vessels.network, work.list_network));
+  if (!work.ghost.empty()) {
+    std::array<double, 2> largest{moved, wider};
+    ranks.max(largest);
+    moved = largest[0];
+    wider = largest[1];
+  }
+  return 2 * (moved + wider) <= in.options.skin;
+}
+
+/// Notes the sizes and places of own cells, and which others are near them.
+void note_cells(const ContactInput& in, ContactWorkspace& work) {
+  const State& s = in.state;
+  set_size(work.list_position, s.position.size());
+  set_size(work.list_radius, s.n_cell());
+  for (std::size_t i = 0; i < s.n_cell(); ++i) {
+    if (work.is_ghost(i)) {
+      work.ghost[i] = ContactWorkspace::kFar;
+      continue;
+    }
+    store_point(work.list_position.data(), cell_address(0, i), center_of(s, i));
+    work.list_radius[i] = in.cells.radius[i];
+  }
+  for (const auto& [a, b] : work.pair) {
+    work.come_near(static_cast<std::size_t>(a));
+    work.come_near(static_cast<std::size_t>(b));
+  }
+}
+
+}  // namespace
+
+bool refresh_pairs(const ContactInput& in, ContactWorkspace& work, const Ranks& ranks) {
+  if (pairs_hold(in, work, ranks)) return false;
   const State& s = in.state;
   const std::span<const double> radius = in.cells.radius;
-  const double skin = in.options.skin;
-  if (work.list_position.size() == s.position.size() && work.list_radius.size() == s.n_cell()) {
-    double moved = 0, wider = 0;
-    for (std::size_t i = 0; i < s.n_cell(); ++i) {
-      moved = std::max(
-          moved,
-          (center_of(s, i) - load_point(work.list_position.data(), cell_address(0, i))).norm());
-      wider = std::max(wider, radius[i] - work.list_radius[i]);
-    }
-    if (in.vessel_row != contact::kAtRest)
-      moved =
-          std::max(moved, geometry::largest_motion(in.boundary.vessels.network, work.list_network));
-    if (2 * (moved + wider) <= skin) return false;
-  }
-  const double margin = largest_separation(s, in.params, radius, in.boundary) + skin;
+  const double margin = largest_separation(s, in.params, radius, in.boundary) + in.options.skin;
   work.pair = std::vector<std::pair<int, int>>();  // freed before the new ones take memory
   work.pair = contact::find_sphere_pairs(s.position.data(), radius, margin, work.ghost);
   work.segment.clear();
@@ -173,8 +209,7 @@ bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {
   }
   work.list_network = {};
   if (in.vessel_row != contact::kAtRest) work.list_network = network;
-  work.list_position = s.position;
-  work.list_radius.assign(radius.begin(), radius.end());
+  note_cells(in, work);
   ++work.list_builds;
   return true;
 }

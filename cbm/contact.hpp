@@ -11,6 +11,7 @@
 #include "cbm/stiffness_law.hpp"
 #include "contact/boundary.hpp"
 #include "contact/record.hpp"
+#include "core/parallel/ranks.hpp"
 #include "core/vec.hpp"
 #include "solve/system.hpp"
 
@@ -36,7 +37,8 @@ double largest_separation(const State& state, std::span<const Params> params,
 
 /// Rebuild the neighbour list if a cell moved more than half the skin. @return true if it was
 /// rebuilt
-bool refresh_pairs(const ContactInput& in, ContactWorkspace& work);
+bool refresh_pairs(const ContactInput& in, ContactWorkspace& work,
+                   const Ranks& ranks = Ranks::serial());
 
 /// True if the modulus of any type depends on the overlaps.
 bool has_correction(std::span<const Params> params);

@@ -12,6 +12,7 @@
 #include "cbm/stiffness_law.hpp"
 #include "contact/boundary.hpp"
 #include "contact/vessel_side.hpp"
+#include "core/parallel/row_vector.hpp"
 #include "geometry/network.hpp"
 
 namespace acinus::cbm {
@@ -43,27 +44,28 @@ struct TypePair {
 /// Scratch of the contact search. Cells are partitioned into one range per thread. A thread adds to
 /// the cells of its own range only and computes pairs across ranges redundantly.
 struct ContactWorkspace {
-  /// [n_cell] 1: ghost cell, computed by another process; empty: none. Set by the caller. Sums over
-  /// the contacts of a cell are complete for own cells only.
+  /// [n_cell] kFar: ghost cell, computed by another process; empty: none. Set by the caller.
+  /// refresh_pairs and the DCM-CBM interface make those near own cells kNear. Sums over the
+  /// contacts of a cell are complete for own cells only, and kFar cells have no numbers.
   std::vector<std::uint8_t> ghost;
   /// Near pairs with an own cell, ascending; written by: refresh_pairs
   std::vector<std::pair<int, int>> pair;
-  std::vector<std::pair<int, int>> segment;  ///< (cell, vessel segment) near pairs
-  std::vector<double> list_position, list_radius;
-  geometry::Network list_network;  ///< moving vessels at the last rebuild
-  RowVector<double> force;         ///< [n_row][3][lane] nN of all pairs; by: find_contacts
+  std::vector<std::pair<int, int>> segment;      ///< (cell, vessel segment) near pairs
+  RowVector<double> list_position, list_radius;  ///< of own cells; written by: refresh_pairs
+  geometry::Network list_network;                ///< moving vessels at the last rebuild
+  RowVector<double> force;  ///< [n_row][3][lane] nN of all pairs; by: find_contacts
   std::vector<std::pair<int, int>> touching;  ///< new touching set, committed with an accepted step
   std::vector<std::vector<std::pair<int, int>>> touching_part;  ///< of other threads than the first
   std::vector<double> type_softness;  ///< [type] 1 - nu^2; written by: find_contacts
   std::vector<TypePair> type_pair;    ///< [type][type]; written by: find_contacts
-  std::vector<double> contact_area;   ///< [n_cell] um^2, sum over all contacts
+  RowVector<double> contact_area;     ///< [n_cell] um^2, sum over all contacts
   /// [n_cell] sum of the relative overlaps with cells and walls, without vessels and meshes;
   /// written by: compute_overlaps; the DCM-CBM interface adds its own. Empty: no law needs it.
   std::vector<double> overlap_sum;
   /// [n_cell] number of contacts in overlap_sum, each weighted by its strength. Empty: no law takes
   /// the mean.
   std::vector<double> overlap_count;
-  std::vector<Modulus> modulus;  ///< [n_cell] kPa, from the overlaps; written by: find_contacts
+  RowVector<Modulus> modulus;  ///< [n_cell] kPa, from the overlaps; written by: find_contacts
   /// [n_cell] nN/um, upper bound C_i of the stiffness that a contact gains because the modulus of
   /// the cell grows with all its overlaps; written by: find_contacts. Empty: no law corrects.
   std::vector<double> coupling;
@@ -72,7 +74,13 @@ struct ContactWorkspace {
   std::int64_t searches = 0;               ///< calls of find_contacts
   std::int64_t corrected = 0, beyond = 0;  ///< moduli by a law, and those beyond its range
 
+  static constexpr std::uint8_t kFar = 1, kNear = 2;
   bool is_ghost(std::size_t cell) const { return !ghost.empty() && ghost[cell] != 0; }
+  bool is_far(std::size_t cell) const { return !ghost.empty() && ghost[cell] == kFar; }
+  /// Makes a ghost cell one with numbers.
+  void come_near(std::size_t cell) {
+    if (is_ghost(cell)) ghost[cell] = kNear;
+  }
 };
 
 }  // namespace acinus::cbm

@@ -228,7 +228,9 @@ class RangeSearch {
 
  private:
   void clear() {
-    std::fill(work_.contact_area.begin() + first_, work_.contact_area.begin() + last_, 0.0);
+    for (auto cell = static_cast<std::size_t>(first_); cell < static_cast<std::size_t>(last_);
+         ++cell)
+      if (!work_.is_far(cell)) work_.contact_area[cell] = 0;
     for (auto cell = static_cast<std::size_t>(first_); cell < static_cast<std::size_t>(last_);
          cell += kLanes)
       if (!work_.is_ghost(cell))
@@ -311,7 +313,7 @@ void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
   const std::size_t n = in.state.n_cell();
   set_size(work.force, in.state.position.size());
   set_size(link, work.pair.size());
-  work.contact_area.resize(n);
+  set_size(work.contact_area, n);
   compute_type_factors(in.params, in.options, work);
   const std::size_t n_part = n > kParallelCells ? static_cast<std::size_t>(thread_count()) : 1;
   work.touching_part.resize(n_part - 1);

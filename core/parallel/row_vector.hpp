@@ -26,7 +26,7 @@ std::size_t resident_bytes(const void* pages, std::size_t bytes);
 template <class T>
 struct RowAllocator {
   using value_type = T;
-  static_assert(std::is_trivially_copyable_v<T>);
+  static_assert(std::is_trivially_destructible_v<T>);
 
   RowAllocator() = default;
   template <class U>

@@ -121,7 +121,7 @@ void gather_pairs(InterfaceWorkspace& work, contact::ContactList& contacts, Touc
 
 /// Candidate pairs of surfaces and spheres (broad phase).
 void find_near(const InterfaceInput& in, double range, dcm::ContactWorkspace& dcm_work,
-               const cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work) {
+               cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work) {
   work.body.clear();
   work.sphere.clear();
   for (const contact::SurfaceBody& b : dcm_work.body) work.body.push_back(b.box);
@@ -133,7 +133,10 @@ void find_near(const InterfaceInput& in, double range, dcm::ContactWorkspace& dc
     return dcm_work.is_ghost_body(p.first) && cbm_work.is_ghost(p.second);
   });
   std::vector<int> bodies;
-  for (const auto& [body, sphere] : work.near) bodies.push_back(body);
+  for (const auto& [body, sphere] : work.near) {
+    bodies.push_back(body);
+    cbm_work.come_near(static_cast<std::size_t>(sphere));
+  }
   complete_bodies(in.dcm.state, bodies, dcm_work);
   for (const int b : bodies)
     dcm_work.share[b].resize(contact::n_points(dcm_work.body[b], in.dcm.options.quadrature));

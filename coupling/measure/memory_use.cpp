@@ -65,13 +65,19 @@ std::size_t measure_links(const Workspace& w) {
 }
 
 std::size_t measure_sphere_lists(const cbm::ContactWorkspace& w) {
-  return memory_of(w.pair) + memory_of(w.segment) + memory_of(w.list_position) +
-         memory_of(w.list_radius) + memory_of(w.contact_area) + memory_of(w.overlap_sum) +
-         memory_of(w.modulus) + memory_of(w.coupling) + memory_of(w.scratch);
+  return memory_of(w.pair) + memory_of(w.segment) + memory_of(w.overlap_sum) +
+         memory_of(w.coupling) + memory_of(w.scratch) + memory_of(w.ghost);
 }
 
 std::size_t measure_touching(const State& s, const cbm::ContactWorkspace& w) {
   return memory_of(s.cbm.touching) + memory_of(w.touching) + memory_of_all(w.touching_part);
+}
+
+/// Sizes, leaders and costs of cells.
+std::size_t measure_cell_work(const Workspace& w) {
+  return memory_of(w.cbm_radius) + memory_of(w.cbm_strength) + memory_of(w.cbm_mother) +
+         memory_of(w.leader) + memory_of(w.forces.dcm) + memory_of(w.medium_friction.dcm) +
+         memory_of(w.cost.of_cell);
 }
 
 std::size_t measure_numbering(const Workspace& w) {
@@ -101,6 +107,7 @@ std::vector<MemoryUse> measure_memory(const State& s, Workspace& w) {
           {"sphere_lists", measure_sphere_lists(w.cbm)},
           {"touching", measure_touching(s, w.cbm)},
           {"coarse", w.coarse.memory()},
+          {"cell_work", measure_cell_work(w)},
           {"numbering", measure_numbering(w)}};
 }
 

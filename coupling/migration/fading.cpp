@@ -27,7 +27,7 @@ void add_fading_forces(const State& s, double time, CellForces& forces) {
   const auto cells = index_cells(s);
   const auto add = [&](std::int64_t lineage, const Vec3& force) {
     const Cell& c = cells.at(lineage);
-    (c.deformable ? forces.dcm : forces.cbm)[c.at] += force;
+    (c.deformable ? forces.dcm[c.at] : forces.cbm[c.at]) += force;
   };
   for (const FadingForce& f : s.fading) {
     if (!has_both(cells, f)) continue;

@@ -49,12 +49,12 @@ void sum_medium_friction(const World& world, const InterfaceInput& in, Workspace
         area * dcm::medium_friction_per_area(world.params.dcm[g.type], w.lanes.radius[l],
                                              g.topology->rest_area);
   }
-  w.medium_friction.cbm.resize(spheres.n_cell());
+  set_size(w.medium_friction.cbm, spheres.n_cell());
+  w.medium_friction.ghost = w.cbm.ghost;
   for (std::size_t c = 0; c < spheres.n_cell(); ++c)
-    w.medium_friction.cbm[c] = w.cbm.is_ghost(c)
-                                   ? kOfOtherProcess
-                                   : cbm::medium_friction(world.params.cbm[spheres.type[c]],
-                                                          w.cbm_radius[c], w.cbm.contact_area[c]);
+    if (!w.cbm.is_ghost(c))
+      w.medium_friction.cbm[c] = cbm::medium_friction(world.params.cbm[spheres.type[c]],
+                                                      w.cbm_radius[c], w.cbm.contact_area[c]);
 }
 
 }  // namespace
@@ -83,7 +83,9 @@ void compute_cell_forces(const World& world, const State& s, double step,
                          CellForces& forces) {
   const Motility& m = world.params.motility;
   forces.dcm.assign(s.dcm.n_lane(), Vec3::Zero());
-  forces.cbm.assign(s.cbm.n_cell(), Vec3::Zero());
+  set_size(forces.cbm, s.cbm.n_cell());
+  for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
+    if (!medium.is_ghost(c)) forces.cbm[c] = Vec3::Zero();
   if (!controls_at(s.clock, world.params.start_up).motility) return;
   const double time = s.clock.time - s.clock.origin;
   auto guide = [&](std::size_t index, const Vec3& center, Vec3& force) {
@@ -108,7 +110,7 @@ void compute_cell_forces(const World& world, const State& s, double step,
     guide(l, dcm::cell_center(s.dcm, l), forces.dcm[l]);
   });
   for_each_index(s.cbm.n_cell(), s.cbm.n_cell() > kParallelCells, [&](std::size_t c) {
-    if (medium.cbm[c] < 0) return;
+    if (medium.is_ghost(c)) return;
     const cbm::Params& p = world.params.cbm[s.cbm.type[c]];
     forces.cbm[c] =
         s.cbm.pull[c] + active(s.dcm.n_lane() + c, s.cbm.lineage[c], p.diffusion, medium.cbm[c]);

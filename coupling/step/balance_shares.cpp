@@ -61,9 +61,10 @@ void balance_shares(World& world, Workspace& w) {
     std::size_t n = 0;
     for_each_cell_of(s, b, [&](std::int64_t, std::size_t) { ++n; });
     for_each_cell_of(s, b, [&](std::int64_t lineage, std::size_t) {
-      cost.of_cell[lineage] = all[b] / static_cast<double>(n);
+      cost.of_cell.emplace_back(lineage, all[b] / static_cast<double>(n));
     });
   }
+  std::ranges::sort(cost.of_cell);
   double sum = 0;
   for (const double t : times) sum += t;
   const double most = *std::ranges::max_element(times);

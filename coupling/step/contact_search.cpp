@@ -14,7 +14,7 @@ void refresh_lists(const InterfaceInput& in, Workspace& w) {
   const auto scope = w.timings.scope("contact lists");
   dcm::refresh_bodies(in.dcm.state, w.dcm);
   dcm::refresh_lists(in.dcm, w.dcm);
-  cbm::refresh_pairs(in.cbm, w.cbm);
+  cbm::refresh_pairs(in.cbm, w.cbm, w.system.ownership.ranks);
 }
 
 void search_contacts(const InterfaceInput& in, Workspace& w) {

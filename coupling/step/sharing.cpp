@@ -42,9 +42,11 @@ BlockCosts compute_costs(const State& s, std::span<const solve::Block> blocks,
       const Address at = make_address(row, static_cast<int>(lane % kLanes));
       place += load_point(position_of(s, at), 0);
       ++n;
-      const auto known = measured.of_cell.find(lineage);
-      cost += known != measured.of_cell.end() ? known->second
-                                              : kPointCost * static_cast<double>(n_point);
+      const auto known = std::ranges::lower_bound(measured.of_cell, lineage, {},
+                                                  &std::pair<std::int64_t, double>::first);
+      cost += known != measured.of_cell.end() && known->first == lineage
+                  ? known->second
+                  : kPointCost * static_cast<double>(n_point);
     });
     out.place.push_back(place / std::max(n, 1.0));
     out.cost.push_back(std::max(cost, kPointCost));

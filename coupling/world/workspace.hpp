@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <optional>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/parallel/timing.hpp"
@@ -21,7 +21,8 @@ namespace acinus::coupling {
 
 /// Measured costs of cells, the weights of the partition.
 struct MeasuredCost {
-  std::unordered_map<std::int64_t, double> of_cell;  ///< s per step, by lineage
+  /// (lineage, s per step) of cells, by lineage
+  std::vector<std::pair<std::int64_t, double>> of_cell;
   double busy = 0;         ///< s, busy time of this process up to the last check
   std::int64_t steps = 0;  ///< steps accepted since then
 };
@@ -87,6 +88,10 @@ void for_each_row_array(Workspace& w, const F& f) {
   LinearisationPoint& point = w.linearisation;
   for (auto* v : {&point.move, &point.friction, &point.product, &point.pair_friction}) f(*v);
   for (auto* v : {&w.rigid.mode, &w.medium_area, &w.position, &w.rhs, &w.move, &w.cbm.force}) f(*v);
+  for (auto* v : {&w.cbm.list_position, &w.cbm.list_radius, &w.cbm.contact_area}) f(*v);
+  f(w.cbm.modulus);
+  f(w.forces.cbm);
+  f(w.medium_friction.cbm);
 }
 
 }  // namespace acinus::coupling

@@ -123,7 +123,7 @@ TEST(Substances, ChemotaxisPointsUpTheGradient) {
     EXPECT_LT((g.heading - Vec3(share, 0, 0)).norm(), 2e-3);
   });
   MediumFriction medium{std::vector<double>(w.state.dcm.n_lane(), 1.0),
-                        std::vector<double>(w.state.cbm.n_cell(), 1.0)};
+                        RowVector<double>(w.state.cbm.n_cell(), 1.0)};
   const std::vector<std::uint8_t> leader(w.state.dcm.n_lane() + w.state.cbm.n_cell(), 1);
   w.params.motility.random = false;
   w.params.motility.leader_force = 2;
