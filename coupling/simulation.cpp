@@ -9,6 +9,7 @@
 #include "coupling/life/rules.hpp"
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/start_up.hpp"
+#include "coupling/step/held_cells.hpp"
 #include "coupling/step/held_contacts.hpp"
 #include "coupling/step/workspace_size.hpp"
 #include "coupling/substances/responses.hpp"
@@ -43,7 +44,16 @@ Simulation::Simulation(World world) : world_(std::move(world)) { resize(); }
 
 void Simulation::resize() { size_workspace(world_, work_); }
 
-void Simulation::complete_state() { complete_contacts(world_.ranks, world_.state); }
+void Simulation::complete_state() {
+  bring_contacts_to_root(world_.ranks, world_.state);
+  bring_cells_to_root(world_.ranks, world_.state);
+}
+
+void Simulation::release_state() {
+  if (!world_.ranks.is_root()) return;
+  drop_contacts(world_.ranks, world_.state);
+  drop_cells(world_.ranks, world_.state);
+}
 
 double Simulation::time_to_event(const Observer& observer) const {
   if (!is_running()) return time_to_phase_event(world_);

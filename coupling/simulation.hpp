@@ -45,9 +45,11 @@ class Simulation {
   /// Sizes the workspace anew. Call it after cells were added, removed or changed from outside.
   void resize();
 
-  /// Brings to every process what it does not have of the state, before the state is read from
-  /// outside. Collective.
+  /// Brings to the root what it does not have of the state, before the state is read from outside.
+  /// Collective.
   void complete_state();
+  /// Returns the memory of what complete_state() brought.
+  void release_state();
 
   /// Advances with all events until `end`, s since t = 0, through start-up if it is not over. A
   /// step that fails at dissolving cells removes them and is repeated.

@@ -9,6 +9,7 @@
 #include "core/numbers/time_grid.hpp"
 #include "core/sphere.hpp"
 #include "coupling/measure/measure.hpp"
+#include "coupling/step/held_cells.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -113,6 +114,7 @@ std::string update_phase(World& world, Workspace& work) {
   const double checks = in_phase / kSettleCheckInterval;
   if (!capped && std::abs(checks - std::round(checks)) * kSettleCheckInterval > 1e-6) return {};
   if (in_phase < 1e-6 && !capped) return {};
+  complete_cells(world.ranks, world.state);
   const double speed = largest_speed(world.state), drift = pressure_drift(world, work);
   const bool rest = speed < p.speed_tolerance && drift < p.pressure_tolerance;
   if (!rest && !capped) return {};

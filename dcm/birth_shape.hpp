@@ -16,7 +16,8 @@ namespace acinus::dcm {
 inline constexpr double kForgetShape = 3600;
 
 /// Ratios of references to those of a sphere of the reference volume: r(t) = 1 + weight(t) (ratio -
-/// 1).
+/// 1). Where several processes share a run, numbers of edges, triangles and links are with the
+/// owner of the cell.
 struct BirthShape {
   Ramp weight = Ramp::constant(0);  ///< from 1 at birth to 0 after mitosis
   double area = 1;                  ///< ratio of the whole surface
@@ -24,7 +25,7 @@ struct BirthShape {
   SharedNumbers triangle;           ///< [n_triangle] ratios of areas; empty: none
   SharedNumbers link;               ///< [n_node of the nucleus] lengths of its links; empty: all 1
 
-  bool is_forgotten(double time) const { return edge.empty() || !(weight.at(time) > 0); }
+  bool is_forgotten(double time) const { return !(weight.at(time) > 0); }
 };
 
 /// Birth shape of these nodes at rest, but for a stretch of the surface (area over its reference)

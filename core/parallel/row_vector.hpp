@@ -2,7 +2,10 @@
 /// Vectors with numbers for all rows of a system. A process writes those of its own cells and of
 /// near ones only; pages that are never written have addresses and no memory.
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstring>
 #include <memory>
 #include <new>
 #include <type_traits>
@@ -79,11 +82,58 @@ void release_rows(RowVector<T>& v) {
   if (v.get_allocator().is_mapped(v.capacity())) release_pages(v.data(), v.capacity() * sizeof(T));
 }
 
+/// n zeros; those of a large vector have no memory until they are written.
+template <class T>
+RowVector<T> make_zeros(std::size_t n) {
+  RowVector<T> v(n);  // new pages are zero
+  if (!v.get_allocator().is_mapped(v.capacity())) v.assign(n, T{0});
+  return v;
+}
+
+/// Row vector that is part of a state. Where the original has zeros its copy has no memory either.
+template <class T>
+class HeldRows : public RowVector<T> {
+ public:
+  HeldRows() = default;
+  HeldRows(RowVector<T>&& rows) : RowVector<T>(std::move(rows)) {}  // NOLINT: it is such a vector
+  HeldRows(HeldRows&&) noexcept = default;
+  HeldRows& operator=(HeldRows&&) noexcept = default;
+  HeldRows(const HeldRows& o) : RowVector<T>(make_zeros<T>(o.size())) {
+    o.for_each_written([&](std::size_t k, std::size_t n) {
+      std::memcpy(this->data() + k, o.data() + k, n * sizeof(T));
+    });
+  }
+  HeldRows& operator=(const HeldRows& o) {
+    if (this != &o) *this = HeldRows(o);
+    return *this;
+  }
+  ~HeldRows() = default;
+
+  /// Calls f(k, n) for the runs [k, k + n) of a page that are not all zero.
+  template <class F>
+  void for_each_written(const F& f) const {
+    constexpr std::size_t kRun = 4096 / sizeof(T);
+    constexpr std::array<T, kRun> kZeros{};
+    for (std::size_t k = 0; k < this->size(); k += kRun) {
+      const std::size_t n = std::min(kRun, this->size() - k);
+      if (std::memcmp(this->data() + k, kZeros.data(), n * sizeof(T)) != 0) f(k, n);
+    }
+  }
+};
+
 /// Memory that a vector has, bytes.
 template <class T>
 std::size_t memory_of(const RowVector<T>& v) {
   const std::size_t bytes = v.capacity() * sizeof(T);
   return v.get_allocator().is_mapped(v.capacity()) ? resident_bytes(v.data(), bytes) : bytes;
+}
+/// Memory that a vector and its copies have at least, bytes: that of pages that are not zero.
+template <class T>
+std::size_t memory_of(const HeldRows<T>& v) {
+  if (!v.get_allocator().is_mapped(v.capacity())) return v.capacity() * sizeof(T);
+  std::size_t bytes = 0;
+  v.for_each_written([&](std::size_t, std::size_t n) { bytes += n * sizeof(T); });
+  return bytes;
 }
 template <class T>
 std::size_t memory_of(const std::vector<T>& v) {

@@ -12,6 +12,7 @@
 #include "core/parallel/stop.hpp"
 #include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
+#include "coupling/step/held_cells.hpp"
 #include "coupling/step/workspace_size.hpp"
 #include "coupling/subworld/settle.hpp"
 #include "coupling/world/cell.hpp"
@@ -97,6 +98,7 @@ void replace_mesh(const dcm::Params& params, State& s, std::size_t lane,
   if (has_last_move(s))
     for (int i = 0; i < s.dcm.group[lane / kLanes].n_point(); ++i)
       store_point(s.last_move.data(), dcm::node_address(s.dcm, lane, i), Vec3::Zero());
+  if (!s.cell_holder.empty()) s.cell_holder.set(lane, kEverywhere);
   if (lane < s.asleep.size()) s.asleep[lane] = 0;
 }
 
@@ -142,6 +144,7 @@ void mend_meshes(World& world, Workspace& work, LifeReport& report) {
   const auto scope = work.timings.scope("mesh health");
   const std::vector<std::size_t> lanes = find_suspicious(s, due == Due::kYoung);
   if (lanes.empty()) return;
+  complete_shapes(world.ranks, lanes, s);
   State before = s;
   std::vector<dcm::Mended> mended(lanes.size());
   for_each_part(lanes.size(), [&](std::size_t k) {

@@ -21,7 +21,8 @@ std::size_t measure_cell_data(const State& s) {
   std::size_t bytes = memory_of(s.dcm.lineage) + memory_of(s.dcm.volume) + memory_of(s.dcm.pull) +
                       memory_of(s.cbm.lineage) + s.cbm.type.memory() + memory_of(s.cbm.volume) +
                       s.cbm.strength.memory() + s.cbm.young.memory() + s.cbm.pull.memory() +
-                      memory_of(s.leader) + memory_of(s.asleep) + memory_of(s.cycle);
+                      memory_of(s.leader) + memory_of(s.asleep) + memory_of(s.cycle) +
+                      s.holder.memory() + s.cell_holder.memory();
   for (const dcm::BirthShape& b : s.dcm.birth)
     bytes += sizeof b + b.edge.memory() + b.triangle.memory() + b.link.memory();
   for (const dcm::EdgeTension& t : s.dcm.tension)

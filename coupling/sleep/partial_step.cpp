@@ -8,6 +8,7 @@
 
 #include "coupling/migration/leaders.hpp"
 #include "coupling/step/held_contacts.hpp"
+#include "coupling/step/held_cells.hpp"
 #include "coupling/world/cell.hpp"
 #include "dcm/contact/contact.hpp"
 
@@ -182,6 +183,7 @@ CellSet find_ring(const World& world, const CellSet& cells) {
 
 StepResult advance(World& world, Workspace& w, AwakePart& part, double limit) {
   if (count_asleep(world.state) == 0) return take_step(world, w, limit);
+  complete_cells(world.ranks, world.state);
   CellSet awake = find_cells(world.state, false);
   if (awake.empty()) return pass_time(world, limit);
   return step_awake(world, w, part, std::move(awake), limit);
@@ -192,6 +194,7 @@ LoopResult set_sleepers_velocity(World& world, Workspace& w, double duration) {
   if (!sleepers_move(world) || !(s.clock.last_step > 0)) return {};
   const auto scope = w.timings.scope("sleepers");
   complete_contacts(world.ranks, s);
+  complete_cells(world.ranks, s);
   CellSet sleepers = find_cells(s, true);
   CellSet ring = find_ring(world, sleepers);
   const std::unique_ptr<Subworld> made = make_part(world);
@@ -215,7 +218,7 @@ LoopResult set_sleepers_velocity(World& world, Workspace& w, double duration) {
   complete_contacts(part.world.ranks, small);
   if (!done.ok) return done;
   move_counts(part.work, w);
-  small.last_move = gather_positions(small);
+  gather_positions(small, small.last_move);
   for (std::size_t k = 0; k < start.size(); ++k)
     small.last_move[k] = ratio * (small.last_move[k] - start[k]);
   start_last_moves(s);

@@ -12,6 +12,7 @@
 #include "coupling/step/balance_shares.hpp"
 #include "coupling/step/constrained_points.hpp"
 #include "coupling/step/held_contacts.hpp"
+#include "coupling/step/held_cells.hpp"
 #include "coupling/step/move_points.hpp"
 #include "coupling/step/shorten.hpp"
 #include "coupling/step/step.hpp"
@@ -57,13 +58,17 @@ void record_balance(const World& world, Workspace& w, Balance& largest) {
   largest.friction_torque = std::max(largest.friction_torque, b.friction_torque);
 }
 
-/// Moves the points of all processes and keeps their displacements.
-void move_all_points(const Workspace& w, State& s) {
-  set_size(s.last_move, w.move.size());
+/// Moves the points of all processes and keeps their displacements, or those of own cells.
+void move_all_points(World& world, const Workspace& w) {
+  State& s = world.state;
+  const bool keeps_all = s.cell_holder.empty();
+  if (keeps_all) set_size(s.last_move, w.move.size());
   stream_rows(w.system, w.move, [&](std::size_t first, std::span<const double> move) {
     move_points(s, first, move);
-    for_each_number(move.size(), [&](std::size_t k) { s.last_move[first + k] = move[k]; });
+    if (keeps_all)
+      for_each_number(move.size(), [&](std::size_t k) { s.last_move[first + k] = move[k]; });
   });
+  if (!keeps_all) keep_own_moves(w, s);
 }
 
 void commit(double step, const Effort& effort, World& world, Workspace& w) {
@@ -72,7 +77,7 @@ void commit(double step, const Effort& effort, World& world, Workspace& w) {
   place_constrained(
       moves ? std::span<const double>(w.linearisation.move) : std::span<const double>{}, w);
   dcm::begin_tensions(w.dcm_params, s.dcm);
-  move_all_points(w, s);
+  move_all_points(world, w);
   place_vessels(world.params.tree, s.tree, world.params.boundary.vessels);
   dcm::advance_tensions(w.dcm_params, step, s.dcm);
   std::swap(s.cbm.touching, w.cbm.touching);
@@ -91,7 +96,8 @@ void commit(double step, const Effort& effort, World& world, Workspace& w) {
 StepResult take_step(World& world, Workspace& w, double limit) {
   State& s = world.state;
   const Numerics& n = world.params.numerics;
-  hand_over_contacts(w, s);
+  hand_over_contacts(world.ranks, w, s);
+  hand_over_cells(world, w);
   StepResult result;
   Effort effort;
   w.failed_solves = 0;

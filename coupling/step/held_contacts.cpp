@@ -14,7 +14,7 @@ using Pair = std::pair<int, int>;
 using Sent = std::array<int, 2>;
 
 /// Process of the second sphere of a pair; that of the first for a contact with the boundary.
-int process_of_second(std::span<const int> process, const Pair& pair) {
+int process_of_second(const PagedValues<int>& process, const Pair& pair) {
   return process[static_cast<std::size_t>(pair.second < 0 ? pair.first : pair.second)];
 }
 
@@ -24,25 +24,45 @@ void sort_once(std::vector<Pair>& pairs) {
   pairs.erase(repeated.begin(), repeated.end());
 }
 
-/// Adds the pairs that others send to all, and the own ones among them.
-void exchange_pairs(const Ranks& ranks, const std::vector<Sent>& own, std::vector<Pair>& pairs) {
-  std::vector<Sent> all;
-  ranks.gather<Sent>(own, all);
+/// Adds pairs of all processes, sorted.
+void add_pairs(const std::vector<Sent>& all, std::vector<Pair>& pairs) {
   if (all.empty()) return;
   for (const auto& [a, b] : all) pairs.emplace_back(a, b);
   sort_once(pairs);
 }
 
+/// Pairs of which this process holds the first sphere.
+std::vector<Sent> list_held(const Ranks& ranks, const State& s) {
+  std::vector<Sent> own;
+  for (const Pair& pair : s.cbm.touching)
+    if (s.holder[static_cast<std::size_t>(pair.first)] == ranks.rank())
+      own.push_back({pair.first, pair.second});
+  return own;
+}
+
+/// Removes the pairs without a sphere of this process.
+/// @param process  [cbm cells]
+void keep_own(const Ranks& ranks, const PagedValues<int>& process, std::vector<Pair>& pairs) {
+  const auto has = [&](int p) { return p == ranks.rank() || p == kEverywhere; };
+  std::erase_if(pairs, [&](const Pair& pair) {
+    return !has(process[static_cast<std::size_t>(pair.first)]) &&
+           !has(process_of_second(process, pair));
+  });
+  pairs.shrink_to_fit();
+}
+
 }  // namespace
 
-void hand_over_contacts(const Workspace& w, State& s) {
+void hand_over_contacts(const Ranks& ranks, const Workspace& w, State& s) {
   const solve::Ownership& ownership = w.system.ownership;
-  if (ownership.is_whole()) return complete_contacts(ownership.ranks, s);
+  if (ownership.is_whole()) return complete_contacts(ranks, s);
   if (s.cbm.n_cell() == 0) return;
-  std::vector<int> owner(s.cbm.n_cell());
-  for (std::size_t c = 0; c < owner.size(); ++c) owner[c] = owner_of_lane(w, w.dcm_lanes + c);
-  if (s.holder == owner) return;
-  const int self = ownership.ranks.rank();
+  const auto owner_of = [&](std::size_t c) { return owner_of_lane(w, w.dcm_lanes + c); };
+  bool same = s.holder.size() == s.cbm.n_cell();
+  for (std::size_t c = 0; same && c < s.holder.size(); ++c) same = s.holder[c] == owner_of(c);
+  if (same) return;
+  PagedValues<int> owner(s.cbm.n_cell(), owner_of);
+  const int self = ranks.rank();
   std::vector<Pair>& pairs = s.cbm.touching;
   if (!s.holder.empty()) {
     // The holder of its first sphere sends a pair that one of the new owners does not have.
@@ -58,24 +78,31 @@ void hand_over_contacts(const Workspace& w, State& s) {
           break;
         }
     }
-    exchange_pairs(ownership.ranks, sent, pairs);
+    std::vector<Sent> all;
+    ranks.gather<Sent>(sent, all);
+    add_pairs(all, pairs);
   }
-  std::erase_if(pairs, [&](const Pair& pair) {
-    return owner[static_cast<std::size_t>(pair.first)] != self &&
-           process_of_second(owner, pair) != self;
-  });
-  pairs.shrink_to_fit();
+  keep_own(ranks, owner, pairs);
   s.holder = std::move(owner);
 }
 
 void complete_contacts(const Ranks& ranks, State& s) {
   if (s.holder.empty()) return;
-  std::vector<Sent> own;
-  for (const Pair& pair : s.cbm.touching)
-    if (s.holder[static_cast<std::size_t>(pair.first)] == ranks.rank())
-      own.push_back({pair.first, pair.second});
-  exchange_pairs(ranks, own, s.cbm.touching);
+  std::vector<Sent> all;
+  ranks.gather<Sent>(list_held(ranks, s), all);
+  add_pairs(all, s.cbm.touching);
   s.holder.clear();
+}
+
+void bring_contacts_to_root(const Ranks& ranks, State& s) {
+  if (s.holder.empty()) return;
+  std::vector<Sent> all;
+  ranks.gather_at_root<Sent>(list_held(ranks, s), all, nullptr);
+  add_pairs(all, s.cbm.touching);
+}
+
+void drop_contacts(const Ranks& ranks, State& s) {
+  if (!s.holder.empty()) keep_own(ranks, s.holder, s.cbm.touching);
 }
 
 }  // namespace acinus::coupling

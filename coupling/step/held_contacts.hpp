@@ -1,6 +1,6 @@
 #pragma once
 /// Contacts of spheres in existence, which with several processes are with the owners of the
-/// spheres: State::holder names them. All else of a state is on every process.
+/// spheres: State::holder names them.
 
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
@@ -10,10 +10,16 @@ namespace acinus::coupling {
 /// Hands contacts over to the present owners of their spheres; does nothing if these have them.
 /// Collective.
 /// @pre the blocks of the system are those of the state
-void hand_over_contacts(const Workspace& work, State& state);
+void hand_over_contacts(const Ranks& ranks, const Workspace& work, State& state);
 
-/// Gathers the contacts of all spheres on every process: before cells are taken into a subworld,
-/// and before the state is written. Collective.
+/// Gathers the contacts of all spheres on every process: before cells are taken into a subworld.
+/// Collective.
 void complete_contacts(const Ranks& ranks, State& state);
+
+/// Gathers the contacts of all spheres at the root, before a state is written; holders stay.
+/// Collective.
+void bring_contacts_to_root(const Ranks& ranks, State& state);
+/// Removes the contacts that other processes hold.
+void drop_contacts(const Ranks& ranks, State& state);
 
 }  // namespace acinus::coupling

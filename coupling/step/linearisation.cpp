@@ -1,6 +1,7 @@
 #include "coupling/step/linearisation.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "core/numbers/time_grid.hpp"
 #include "core/parallel/arrays.hpp"
@@ -77,12 +78,9 @@ const State& choose_linearisation_point(const World& world, double step, bool fi
   if (w.constraint.applies() || w.system.ownership.is_whole()) {
     move_points(point.state, point.move);
   } else {  // near cells of other processes move too
-    const double part = extrapolated_part(s, step);
-    const auto extrapolate = [&](std::size_t begin, std::vector<double>& x) {
-      for_each_number(x.size(), [&](std::size_t k) { x[k] += part * s.last_move[begin + k]; });
-    };
-    extrapolate(0, point.state.dcm.position);
-    extrapolate(s.dcm.position.size(), point.state.cbm.position);
+    solve::stream_rows(w.system, point.move, [&](std::size_t first, std::span<const double> move) {
+      move_points(point.state, first, move);
+    });
   }
   return point.state;
 }

@@ -40,7 +40,8 @@ struct Trial {
 /// work.rhs of the trial.   @return its norm under the preconditioner
 double newton_residual(const Equation& e, std::span<const double> d, Trial& trial) {
   trial.state = e.world.state;
-  hand_over_contacts(trial.work, trial.state);  // whose cells have owners of their own
+  hand_over_contacts(e.world.ranks, trial.work,
+                     trial.state);  // whose cells have owners of their own
   move_points(trial.state, d);
   e.assemble(e.world, trial.state, e.step, trial.work, {});
   trial.product.resize(d.size());
@@ -93,7 +94,7 @@ Status iterate_newton(const World& world, double step, const Assembler& assemble
   size_workspace(world, trial.friction);
   size_workspace(world, trial.work);
   trial.state = world.state;
-  hand_over_contacts(trial.friction, trial.state);
+  hand_over_contacts(world.ranks, trial.friction, trial.state);
   assemble(world, trial.state, step, trial.friction, {.stiffness = false});
   const double done = kNewtonShare * world.params.numerics.tolerance;
   double size = newton_residual(equation, w.move, trial);

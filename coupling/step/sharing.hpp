@@ -1,6 +1,6 @@
 #pragma once
-/// Partition of the cells among processes. Every process has the whole state; the work of a step is
-/// shared by blocks of eight cells. Results do not depend on ownership.
+/// Partition of the cells among processes. Every process has the positions of all; the work of a
+/// step is shared by blocks of eight cells. Results do not depend on ownership.
 
 #include <cstdint>
 #include <span>

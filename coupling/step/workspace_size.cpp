@@ -6,6 +6,7 @@
 
 #include "coupling/step/ghost_cells.hpp"
 #include "coupling/step/held_contacts.hpp"
+#include "coupling/step/held_cells.hpp"
 #include "coupling/step/sharing.hpp"
 #include "dcm/loads/loads.hpp"
 
@@ -63,7 +64,8 @@ void release_scratch(Workspace& w) {
 
 void size_workspace(World& world, Workspace& w) {
   size_workspace(std::as_const(world), w);
-  hand_over_contacts(w, world.state);
+  hand_over_contacts(world.ranks, w, world.state);
+  hand_over_cells(world, w);
 }
 
 }  // namespace acinus::coupling

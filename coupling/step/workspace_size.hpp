@@ -14,7 +14,8 @@ void size_workspace(const World& world, Workspace& work);
 /// only large thing besides contacts and matrix.
 void release_scratch(Workspace& work);
 
-/// The same, and hands the contacts of spheres over to their new owners. Collective.
+/// The same, and hands the contacts of spheres and the last moves of cells over to their new
+/// owners. Collective.
 void size_workspace(World& world, Workspace& work);
 
 }  // namespace acinus::coupling

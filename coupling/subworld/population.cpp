@@ -1,6 +1,9 @@
 #include "coupling/subworld/population.hpp"
 
-#include "core/parallel/arrays.hpp"
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
 #include "core/parallel/threads.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/world/cell.hpp"
@@ -12,6 +15,13 @@ namespace {
 template <class T>
 T value_of(const std::vector<T>& values, std::size_t index, T otherwise) {
   return index < values.size() ? values[index] : otherwise;
+}
+
+/// Copies the last move of a point; zeros are there already and get no memory.
+void copy_move(const State& from, Address at, State& to, Address place) {
+  for (Address k = 0; k < 3 * kLanes; k += kLanes)
+    if (std::bit_cast<std::uint64_t>(from.last_move[at + k]) != 0)
+      to.last_move[place + k] = from.last_move[at + k];
 }
 
 /// Sorts members along a space-filling curve.
@@ -44,13 +54,18 @@ State compose(std::span<const SelectedCell<State>> dcm, std::span<const Selected
   const std::size_t n_cell = s.dcm.n_lane() + s.cbm.n_cell();
   s.leader.assign(n_cell, 0);
   s.cycle.assign(n_cell, Cycle{});
-  assign_zeros(s.last_move, s.dcm.position.size() + s.cbm.position.size());
+  s.last_move = make_zeros<double>(s.dcm.position.size() + s.cbm.position.size());
+  std::vector<int> holder;
   const auto copy_cell = [&](const State& from, std::size_t at, std::size_t to) {
     s.leader[to] = value_of(from.leader, at, std::uint8_t{0});
     s.cycle[to] = value_of(from.cycle, at, Cycle{});
     if (!from.model_since.empty()) {
       s.model_since.resize(n_cell, like.clock.origin);
       s.model_since[to] = from.model_since[at];
+    }
+    if (!from.cell_holder.empty()) {
+      holder.resize(s.dcm.n_lane() + s.cbm.n_row() * kLanes, kEverywhere);
+      holder[to] = from.cell_holder[at];
     }
     if (!from.guidance.empty()) {
       s.guidance.resize(n_cell);
@@ -63,27 +78,26 @@ State compose(std::span<const SelectedCell<State>> dcm, std::span<const Selected
   for (std::size_t k = 0; k < dcm.size(); ++k) copy_cell(*dcm[k].state, dcm[k].index, lane[k]);
   for (std::size_t k = 0; k < cbm.size(); ++k)
     copy_cell(*cbm[k].state, cell_index(*cbm[k].state, cbm[k].index), cell_index(s, k));
-  for (std::size_t k = 0; k < cbm.size(); ++k) {
-    const State& from = *cbm[k].state;
-    if (from.holder.empty()) continue;
-    s.holder.resize(cbm.size(), kEverywhere);
-    s.holder[k] = from.holder[cbm[k].index];
-  }
+  s.cell_holder = PagedValues(holder);
+  if (std::ranges::any_of(cbm, [](const auto& c) { return !c.state->holder.empty(); }))
+    s.holder = {cbm.size(), [&](std::size_t k) {
+                  const State& from = *cbm[k].state;
+                  return from.holder.empty() ? kEverywhere : from.holder[cbm[k].index];
+                }};
   const bool shared = worth_threads(s.dcm.n_row() + s.cbm.n_row());
   for_each_index(dcm.size(), shared, [&](std::size_t k) {
     const State& from = *dcm[k].state;
     if (!has_last_move(from)) return;
     const int n_point = from.dcm.group[dcm[k].index / kLanes].n_point();
     for (int i = 0; i < n_point; ++i)
-      store_point(s.last_move.data(), dcm::node_address(s.dcm, lane[k], i),
-                  load_point(from.last_move.data(), dcm::node_address(from.dcm, dcm[k].index, i)));
+      copy_move(from, dcm::node_address(from.dcm, dcm[k].index, i), s,
+                dcm::node_address(s.dcm, lane[k], i));
   });
   for_each_index(cbm.size(), shared, [&](std::size_t k) {
     const State& from = *cbm[k].state;
     if (!has_last_move(from)) return;
-    store_point(
-        s.last_move.data(), cbm::cell_address(s.dcm.n_row(), k),
-        load_point(from.last_move.data(), cbm::cell_address(from.dcm.n_row(), cbm[k].index)));
+    copy_move(from, cbm::cell_address(from.dcm.n_row(), cbm[k].index), s,
+              cbm::cell_address(s.dcm.n_row(), k));
   });
   s.clock = like.clock;
   s.balance = like.balance;

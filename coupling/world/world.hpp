@@ -10,7 +10,9 @@
 #include "cbm/params.hpp"
 #include "cbm/state.hpp"
 #include "contact/boundary.hpp"
+#include "core/parallel/paged_values.hpp"
 #include "core/parallel/ranks.hpp"
+#include "core/parallel/row_vector.hpp"
 #include "coupling/apparatus/apparatus.hpp"
 #include "coupling/interface/interface.hpp"
 #include "coupling/vessels/vessel_tree.hpp"
@@ -154,10 +156,13 @@ struct PresentState {
 
 /// State of the world: exactly the contents of a checkpoint.
 struct State : PresentState {
-  std::vector<double> last_move;  ///< [n_row][3][lane] um, displacement of the last step
+  HeldRows<double> last_move;  ///< [n_row][3][lane] um, displacement of the last step
+  /// [lanes of all rows of cells] process that has the last move of a cell and the numbers of its
+  /// shape of birth, kEverywhere: all have them; empty: all have all. See step/held_cells.hpp
+  PagedValues<int> cell_holder;
   /// [cbm cells] process that has the contacts of a sphere in cbm.touching, kEverywhere: all have
   /// them; empty: all are everywhere, as in a checkpoint. See step/held_contacts.hpp
-  std::vector<int> holder;
+  PagedValues<int> holder;
 };
 
 inline constexpr int kEverywhere = -1;  ///< holder of what every process has

@@ -15,6 +15,7 @@
 #include "coupling/measure/measure.hpp"
 #include "coupling/migration/fading.hpp"
 #include "coupling/step/held_contacts.hpp"
+#include "coupling/step/held_cells.hpp"
 #include "coupling/step/workspace_size.hpp"
 #include "coupling/subworld/population.hpp"
 #include "coupling/subworld/settle.hpp"
@@ -241,6 +242,7 @@ ZoomReport update_zoom(World& world, Workspace& work) {
     for (const Candidate& c : *list) changing.insert(c.lineage);
   const PairForces before = compute_pair_forces(world, work, changing);
   complete_contacts(world.ranks, s);
+  complete_cells(world.ranks, s);
   State old = s;
   change_models(world, all, pressure, report);
   if (!settle(world, neighbours_of(s, all.demote, before), kSettlingStep, report) ||

@@ -346,7 +346,7 @@ void put_state(const coupling::State& s, io::CheckpointData& d) {
                 [&](const char* name, double value) { d.put_number(name, value); });
   visit_counts(s.clock, [&](const char* name, std::int64_t value) { d.put_count(name, value); });
   d.put_count("clock/shortened", s.clock.shortened);
-  d.put("solver/last_move", s.last_move);
+  d.put("solver/last_move", std::vector<double>(s.last_move.begin(), s.last_move.end()));
   d.put("leaders/cell", as_integers(s.leader));
   d.put_count("leaders/interval", s.leader_interval);
   d.put("settle/pressure", s.settle_pressure);
@@ -355,6 +355,7 @@ void put_state(const coupling::State& s, io::CheckpointData& d) {
 
 void get_state(const io::CheckpointData& d, const StateTypes& types, coupling::State& s) {
   s.holder.clear();
+  s.cell_holder.clear();
   get_shells(d, s.dcm);
   get_spheres(d, s.cbm);
   get_tree(d, s.tree);
@@ -371,7 +372,8 @@ void get_state(const io::CheckpointData& d, const StateTypes& types, coupling::S
   visit_numbers(s.clock, s.balance,
                 [&](const char* name, double& value) { value = d.number(name); });
   visit_counts(s.clock, [&](const char* name, auto& value) { value = d.count(name); });
-  s.last_move = d.numbers("solver/last_move");
+  const std::vector<double>& last_move = d.numbers("solver/last_move");
+  s.last_move.assign(last_move.begin(), last_move.end());
   const std::vector<std::int64_t>& leader = d.integers("leaders/cell");
   s.leader.assign(leader.begin(), leader.end());
   s.leader_interval = d.count("leaders/interval");

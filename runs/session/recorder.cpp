@@ -204,6 +204,11 @@ io::CheckpointData Recorder::make_checkpoint() {
 }
 
 void Recorder::save() {
+  write_checkpoint();
+  simulation_.release_state();
+}
+
+void Recorder::write_checkpoint() {
   simulation_.complete_state();
   if (!file_) return;
   const auto scope = simulation_.work().timings.scope("checkpoints");
@@ -212,7 +217,7 @@ void Recorder::save() {
 }
 
 void Recorder::close(RunOutcome status, const std::string& cause) {
-  save();
+  write_checkpoint();
   if (!file_) return;
   file_->set_provenance("end", now_text());
   file_->set_provenance("status", name_of_choice(status));

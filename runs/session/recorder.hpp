@@ -79,6 +79,7 @@ class Recorder {
   }
 
  private:
+  void write_checkpoint();  ///< the same; the root keeps the whole state
   const Ranks& ranks() const { return simulation_.world().ranks; }
   std::string run_file() const { return options_.out + "/run.vtkhdf"; }
   io::RunFileOptions file_options() const;

@@ -214,6 +214,7 @@ coupling::Observer SceneRun::observer() {
               [this] {
                 simulation_.complete_state();
                 if (world().ranks.is_root()) save_start(options_.out, scene_, world().state);
+                simulation_.release_state();
               },
           .life = [this](const coupling::LifeReport& report) { recorder_.add_life(report); },
           .events_over = [this] { return events_over(); }};

@@ -61,7 +61,7 @@ TEST(HeldContacts, AreWithTheOwnersOfTheirSpheres) {
   Workspace w;
   for (std::uint64_t seed = 1; seed < 6; ++seed) {
     draw_owners(seed, w);
-    hand_over_contacts(w, s);
+    hand_over_contacts(Ranks::world(), w, s);
     EXPECT_EQ(s.cbm.touching, find_own(w, all)) << "owners " << seed;
   }
   complete_contacts(Ranks::world(), s);
@@ -74,9 +74,9 @@ TEST(HeldContacts, ComeBackFromAnyOwners) {
   const Pairs all = s.cbm.touching;
   Workspace w;
   draw_owners(7, w);
-  hand_over_contacts(w, s);
+  hand_over_contacts(Ranks::world(), w, s);
   w.system.ownership.owner.clear();  // every process does all the work
-  hand_over_contacts(w, s);
+  hand_over_contacts(Ranks::world(), w, s);
   EXPECT_EQ(s.cbm.touching, all);
 }
 

@@ -280,7 +280,7 @@ TEST(Friction, OfTheMatrixIsThatOfOneWithoutStiffness) {
     w.params.boundary.capsules = {shell};
     SizedWorkspace work(w);
     ASSERT_TRUE(take_step(w, work, 60).accepted);
-    const std::vector<double>& x = w.state.last_move;
+    const auto& x = w.state.last_move;
     std::vector<double> wanted(x.size()), found(x.size()), external(x.size()), outside(x.size());
     assemble(w, 60, work, {.stiffness = false});
     work.op.apply(x, wanted);
