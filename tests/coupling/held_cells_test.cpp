@@ -16,20 +16,20 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr int kShells = 60, kSpheres = 4000;
+constexpr int kHeldShells = 60, kHeldSpheres = 4000;
 
 /// Cells of both models with random last moves.
-World make_world() {
+World make_held_world() {
   World world;
   world.ranks = Ranks::world();
   State& s = world.state;
-  std::vector<dcm::NewCell> shells(kShells);
+  std::vector<dcm::NewCell> shells(kHeldShells);
   for (dcm::NewCell& c : shells) {
     c.topology = &geometry::shared_icosphere(42);
     c.radius = 5;
   }
   s.dcm = dcm::make_state(shells);
-  s.cbm = cbm::make_state(std::vector<cbm::NewCell>(kSpheres));
+  s.cbm = cbm::make_state(std::vector<cbm::NewCell>(kHeldSpheres));
   s.last_move = make_zeros<double>(count_unknowns(s));
   std::mt19937_64 random(3);
   for (double& x : s.last_move) x = std::uniform_real_distribution<double>(-1, 1)(random);
@@ -42,7 +42,7 @@ World make_world() {
 }
 
 /// Blocks with random owners; with one process all are own.
-void draw_owners(std::uint64_t seed, const World& world, Workspace& w) {
+void draw_block_owners(std::uint64_t seed, const World& world, Workspace& w) {
   const auto n = static_cast<unsigned>(world.ranks.size());
   std::mt19937_64 random(seed);
   std::vector<solve::Block> blocks = dcm::make_blocks(world.state.dcm, std::vector<dcm::Params>(1));
@@ -59,7 +59,7 @@ void draw_owners(std::uint64_t seed, const World& world, Workspace& w) {
 }
 
 /// Expects own cells to be those of `all`, and no others to be there.
-void expect_own(const World& world, const Workspace& w, const State& all) {
+void expect_own_cells(const World& world, const Workspace& w, const State& all) {
   std::size_t wrong = 0;
   for (std::size_t lane = 0; lane < all.dcm.n_lane(); ++lane) {
     const dcm::BirthShape wanted =
@@ -75,13 +75,13 @@ void expect_own(const World& world, const Workspace& w, const State& all) {
 }
 
 TEST(HeldCells, AreWithTheOwnersOfTheirCells) {
-  World world = make_world();
+  World world = make_held_world();
   const State all = world.state;
   Workspace w;
   for (std::uint64_t seed = 1; seed < 4; ++seed) {
-    draw_owners(seed, world, w);
+    draw_block_owners(seed, world, w);
     hand_over_cells(world, w);
-    expect_own(world, w, all);
+    expect_own_cells(world, w, all);
     const State copy = world.state;
     EXPECT_EQ(copy.last_move, world.state.last_move);
   }
@@ -91,9 +91,9 @@ TEST(HeldCells, AreWithTheOwnersOfTheirCells) {
 }
 
 TEST(HeldCells, OfOthersTakeNoMemory) {
-  World world = make_world();
+  World world = make_held_world();
   Workspace w;
-  draw_owners(1, world, w);
+  draw_block_owners(1, world, w);
   std::ranges::fill(w.system.ownership.owner, world.ranks.size() - 1);  // those of the last process
   solve::set_blocks(w.system, std::vector<solve::Block>(w.system.block));
   hand_over_cells(world, w);
@@ -108,10 +108,10 @@ TEST(HeldCells, OfOthersTakeNoMemory) {
 }
 
 TEST(HeldCells, ComeBackWhenEveryProcessDoesAllWork) {
-  World world = make_world();
+  World world = make_held_world();
   const State all = world.state;
   Workspace w;
-  draw_owners(7, world, w);
+  draw_block_owners(7, world, w);
   hand_over_cells(world, w);
   w.system.ownership.owner.clear();
   hand_over_cells(world, w);
