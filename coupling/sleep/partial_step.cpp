@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "coupling/migration/leaders.hpp"
-#include "coupling/step/held_contacts.hpp"
 #include "coupling/step/held_cells.hpp"
+#include "coupling/step/held_contacts.hpp"
 #include "coupling/world/cell.hpp"
 #include "dcm/contact/contact.hpp"
 

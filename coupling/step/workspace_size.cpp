@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "coupling/step/ghost_cells.hpp"
-#include "coupling/step/held_contacts.hpp"
 #include "coupling/step/held_cells.hpp"
+#include "coupling/step/held_contacts.hpp"
 #include "coupling/step/sharing.hpp"
 #include "dcm/loads/loads.hpp"
 
