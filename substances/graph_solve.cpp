@@ -111,6 +111,7 @@ SolveResult GraphSolver::solve(const GraphSystem& s, double tolerance, std::span
   }
   result.residual = std::sqrt(rr) / norm;
   result.converged = result.residual <= tolerance;
+  for (double& value : x) value = std::max(value, 0.0);  // cut as in Solver::solve
   // Links cancel in the sum of A x.
   const std::span<const double> own = s.own, rhs = s.rhs, found = x;
   const double factor =

@@ -172,7 +172,9 @@ SolveResult Solver::solve(const StepSystem& system, double tolerance, std::span<
   result.residual = norm_of(rr) / norm;
   result.converged = result.residual <= tolerance;
 
-  for_each_voxel(l, [&](std::size_t at, std::size_t voxel) { c[voxel] = x_[at]; });
+  // No concentration is below 0: what the tolerance leaves there is cut before amounts are
+  // balanced.
+  for_each_voxel(l, [&](std::size_t at, std::size_t voxel) { c[voxel] = std::max(x_[at], 0.0); });
   // Faces cancel in the sum of A c.
   const double held = dot_voxels(l.n[2], system.own, c);
   const double wanted = sum_voxels(l.n[2], system.rhs);

@@ -36,8 +36,9 @@ class Solver {
  public:
   void resize(const std::array<int, 3>& n);
 
-  /// Solves to |rhs - A c| <= tolerance |rhs|, then scales c by a factor near 1 so that the sum of
-  /// the residual vanishes: what the voxels hold, gain and lose balances to round-off.
+  /// Solves to |rhs - A c| <= tolerance |rhs|, sets what is below 0 to 0, then scales c by a factor
+  /// near 1 so that the sum of the residual vanishes: what the voxels hold, gain and lose balances
+  /// to round-off.
   /// @param c  [n_voxel] initial guess; written
   SolveResult solve(const StepSystem& system, double tolerance, std::span<double> c);
 
