@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/json_size.hpp"
@@ -43,8 +44,16 @@ JsonFile JsonFile::read(const std::string& path) {
         fmt::format("{}: {}. The metadata of zarr are a JSON object: the file is truncated or "
                     "damaged; copy or write the image again.",
                     path, reason.empty() ? "holds " + shown(json) : reason));
-  return {path, std::move(json)};
+  return {path, std::make_shared<const Json>(std::move(json))};
 }
+
+bool JsonPart::is_null() const { return value_->is_null(); }
+bool JsonPart::is_boolean() const { return value_->is_boolean(); }
+bool JsonPart::is_number() const { return value_->is_number(); }
+bool JsonPart::is_text() const { return value_->is_string(); }
+bool JsonPart::is_list() const { return value_->is_array(); }
+bool JsonPart::is_object() const { return value_->is_object(); }
+bool JsonPart::has(const std::string& name) const { return is_object() && value_->contains(name); }
 
 std::vector<std::string> JsonPart::names() const {
   std::vector<std::string> all;

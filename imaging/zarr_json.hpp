@@ -2,7 +2,8 @@
 /// Metadata of zarr: JSON files of other programs, each value with its place for messages.
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,13 +19,13 @@ class JsonPart {
   JsonPart(const std::string& path, const Json& value, std::string pointer = "")
       : path_(&path), value_(&value), pointer_(std::move(pointer)) {}
 
-  bool is_null() const { return value_->is_null(); }
-  bool is_boolean() const { return value_->is_boolean(); }
-  bool is_number() const { return value_->is_number(); }
-  bool is_text() const { return value_->is_string(); }
-  bool is_list() const { return value_->is_array(); }
-  bool is_object() const { return value_->is_object(); }
-  bool has(const std::string& name) const { return is_object() && value_->contains(name); }
+  bool is_null() const;
+  bool is_boolean() const;
+  bool is_number() const;
+  bool is_text() const;
+  bool is_list() const;
+  bool is_object() const;
+  bool has(const std::string& name) const;
   /// Names of the members of an object.
   std::vector<std::string> names() const;
   JsonPart at(const std::string& name) const;
@@ -50,10 +51,10 @@ class JsonPart {
 /// JSON file, held in memory.
 struct JsonFile {
   std::string path;
-  Json value;
+  std::shared_ptr<const Json> value;
   /// Reads an object. Throws Error if the file cannot be read, is not JSON or holds no object.
   static JsonFile read(const std::string& path);
-  JsonPart root() const { return {path, value}; }
+  JsonPart root() const { return {path, *value}; }
 };
 
 }  // namespace acinus::imaging

@@ -27,6 +27,7 @@ ROOMS = {
 MIRRORS = ("tests",)  # may include every floor; no floor includes them
 JSON_FOLDERS = ("bench", "cli", "service", "runs", "calibration") + MIRRORS
 JSON_FILES = ("imaging/json_statements.cpp", "imaging/zarr_json.cpp")  # other programs describe their images so
+JSON_NAMES = ("imaging/zarr_json.hpp",)  # forward declarations only
 MAX_LINES = 400
 MAX_TEST_LINES = 500
 MAX_README_LINES = 40
@@ -50,7 +51,7 @@ def check_include(path, bracket, target, beside):
     folder = path.split("/")[0]
     top = target.split("/")[0]
     names_only = target == "nlohmann/json_fwd.hpp"
-    if top == "nlohmann" and path not in JSON_FILES and folder not in MIRRORS and (folder not in JSON_FOLDERS or not (path.endswith(".cpp") or names_only)):
+    if top == "nlohmann" and path not in JSON_FILES and not (path in JSON_NAMES and names_only) and folder not in MIRRORS and (folder not in JSON_FOLDERS or not (path.endswith(".cpp") or names_only)):
         return "nlohmann-json belongs in .cpp files of calibration/ and the floors above it only"
     if top in (".", "..") or (bracket == '"' and beside and top not in FLOORS):
         return "include paths start at the root of the repository"

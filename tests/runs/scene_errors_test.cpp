@@ -296,13 +296,6 @@ TEST(SceneErrors, ModelZoomFromOutsideNeedsRegions) {
             "--set model=cmb: /model = \"cmb\": unknown choice. Did you mean \"cbm\"?");
 }
 
-TEST(SceneErrors, CellsModelFromOutsideIsNotHiddenByModel) {
-  EXPECT_EQ(failure(kMinimal, {"model=dcm", "cells.model=cbm"}),
-            "--set cells.model=cbm: /cells/model = \"cbm\": has no effect, since /model = \"dcm\" "
-            "stands in its place. Take --set model=cbm");
-  EXPECT_EQ(failure(kMinimal, {"model=cbm", "cells.model=cbm"}), "");
-}
-
 struct BrokenRule {
   const char* name;
   std::string text;

@@ -81,5 +81,12 @@ TEST(SceneZoomErrors, OtherIntegratorsDoNotFollow) {
             "(/moving_zoom). Choose \"linearly-implicit\"");
 }
 
+TEST(SceneZoomErrors, CellsModelFromOutsideIsNotHiddenByModel) {
+  EXPECT_EQ(failure(kMinimal, {"model=dcm", "cells.model=cbm"}),
+            "--set cells.model=cbm: /cells/model = \"cbm\": has no effect, since /model = \"dcm\" "
+            "stands in its place. Take --set model=cbm");
+  EXPECT_EQ(failure(kMinimal, {"model=cbm", "cells.model=cbm"}), "");
+}
+
 }  // namespace
 }  // namespace acinus::runs
