@@ -41,6 +41,6 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "openmpi-bin, python3-h5py, python3-numpy, python3-pil")  # several processes, the reader
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 # For those who build against the library, all that cmake/acinus-config.cmake looks for and the link line names:
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, pkgconf, libblosc-dev, libeigen3-dev, libfmt-dev, libgmp-dev, libhdf5-dev, libmpfr-dev, libopenmpi-dev, libtrilinos-zoltan-dev, libxxhash-dev, libzstd-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, pkgconf, libblosc-dev, libeigen3-dev, libfmt-dev, libgmp-dev, libhdf5-dev, libmpfr-dev, libnifti-dev, libopenmpi-dev, libpugixml-dev, libtiff-dev, libtrilinos-zoltan-dev, libxxhash-dev, libzstd-dev, nlohmann-json3-dev, zlib1g-dev")
 set(CPACK_STRIP_FILES ON)
 include(CPack)

@@ -9,6 +9,7 @@ there. Where mounting is allowed, the folder of the sources is hidden meanwhile.
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -18,6 +19,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 NEEDED = ["usr/bin/acinus", "usr/share/acinus/scenes/lobule_hybrid.json", "usr/share/acinus/laws/hepatocyte_5e-6.json", "usr/share/doc/acinus/copyright", "usr/share/man/man1/acinus.1.gz",
           "usr/share/doc/acinus/examples/tutorial/clump.json", "usr/lib/python3/dist-packages/acinus/run.py",
           "usr/lib/cmake/acinus/acinus-config.cmake", "usr/include/acinus/coupling/simulation.hpp"]
+
+# Debian packages of what acinus-config.cmake looks for.
+DEVELOPMENT = {"Eigen3": "libeigen3-dev", "MPI": "libopenmpi-dev", "fmt": "libfmt-dev", "nlohmann_json": "nlohmann-json3-dev", "ZLIB": "zlib1g-dev",
+               "pugixml": "libpugixml-dev", "PkgConfig": "pkgconf", "HDF5": "libhdf5-dev", "BLOSC": "libblosc-dev", "ZSTD": "libzstd-dev",
+               "TIFF": "libtiff-dev", "XXHASH": "libxxhash-dev"}
 
 
 def call(*words, **how):
@@ -45,6 +51,11 @@ def check_content(package):
     for library in ("libc6", "libhdf5", "libopenmpi", "libtiff"):  # found by dpkg-shlibdeps
         assert library in depends, depends
     assert "python3-h5py" in field(package, "Recommends")
+    config = (ROOT / "cmake" / "acinus-config.cmake").read_text()
+    found = re.findall(r"^(?:find_dependency|pkg_check_modules)\((\w+)", config, re.MULTILINE)
+    suggested = field(package, "Suggests").split(", ")
+    missing = [name for name in found if DEVELOPMENT[name] not in suggested]
+    assert found and not missing, f"programs with the library need {missing}, which the package does not suggest"
     files = {line.split(None, 5)[5].removeprefix("./") for line in call("dpkg-deb", "-c", package).splitlines()}
     for kind in ("scenes", "studies", "laws"):
         shipped = {p.relative_to(ROOT / "runs").as_posix() for p in (ROOT / "runs" / kind).rglob("*") if p.is_file()}
