@@ -169,15 +169,26 @@ RuleOutcome convert_growth(const PhysiCellRule& r, std::optional<double> base, D
   return {true, note + assumed_base(r, base)};
 }
 
-RuleOutcome convert_death(const PhysiCellRule& r, std::optional<double> base, Draft& draft) {
+/// Largest rate of a rule, 1/min.   @pre not refuse_rate
+double full_rate(const PhysiCellRule& r, std::optional<double> base) {
+  return r.decreases ? *base : r.extreme;
+}
+
+/// Reasons against a rule whose largest rate must be known and above 0.
+std::optional<RuleOutcome> refuse_rate(const PhysiCellRule& r, std::optional<double> base) {
   if (r.decreases && !base)
     return left(
         fmt::format("the rate without the signal is not in the table: give it in 1/min, "
                     "as --base \"{}:{}=0.001\"",
                     r.cell_type, r.behaviour));
-  if (const auto refused = refuse_range(r, base)) return *refused;
-  const double rate = r.decreases ? *base : r.extreme;
-  if (!(rate > 0)) return left("base value 0, so it does nothing");
+  if (const auto refused = refuse_range(r, base)) return refused;
+  if (!(full_rate(r, base) > 0)) return left("base value 0, so it does nothing");
+  return {};
+}
+
+RuleOutcome convert_death(const PhysiCellRule& r, std::optional<double> base, Draft& draft) {
+  if (const auto refused = refuse_rate(r, base)) return *refused;
+  const double rate = full_rate(r, base);
   draft.add_rule(r, "death", rate);
   return {true, fmt::format("death at {}{}", per_minute(rate), assumed_base(r, base))};
 }
@@ -196,14 +207,8 @@ RuleOutcome convert_exchange(const PhysiCellRule& r, std::optional<double> base,
                              Draft& draft) {
   const std::string behaviour = secretes ? "secretion" : "uptake";
   const std::string substance = r.behaviour.substr(0, r.behaviour.size() - behaviour.size() - 1);
-  if (r.decreases && !base)
-    return left(
-        fmt::format("the rate without the signal is not in the table: give it in 1/min, "
-                    "as --base \"{}:{}=0.001\"",
-                    r.cell_type, r.behaviour));
-  if (const auto refused = refuse_range(r, base)) return *refused;
-  const double rate = r.decreases ? *base : r.extreme;
-  if (!(rate > 0)) return left("base value 0, so it does nothing");
+  if (const auto refused = refuse_rate(r, base)) return *refused;
+  const double rate = full_rate(r, base);
   draft.add_rule(r, behaviour.c_str(), 0, substance);
   OrderedJson& e = draft.exchange(r, substance);
   e[behaviour] = per_minute(rate);
