@@ -181,8 +181,7 @@ bool refresh_pairs(const ContactInput& in, ContactWorkspace& work, const Ranks& 
   const State& s = in.state;
   const std::span<const double> radius = in.cells.radius;
   const double margin = largest_separation(s, in.params, radius, in.boundary) + in.options.skin;
-  work.pair = std::vector<std::pair<int, int>>();  // freed before the new ones take memory
-  work.pair = contact::find_sphere_pairs(s.position.data(), radius, margin, work.ghost);
+  contact::find_sphere_pairs(s.position.data(), radius, margin, work.ghost, work.pair);
   work.segment.clear();
   const geometry::Network& network = in.boundary.vessels.network;
   if (!network.segment.empty()) {

@@ -84,28 +84,30 @@ bool are_near(const double* position, std::span<const double> radius, double mar
 
 }  // namespace
 
-std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
-                                                   std::span<const double> radius, double margin,
-                                                   std::span<const std::uint8_t> ghost) {
-  if (radius.size() < 2) return {};
+void find_sphere_pairs(const double* position, std::span<const double> radius, double margin,
+                       std::span<const std::uint8_t> ghost, Pairs& pairs) {
+  pairs.clear();
+  if (radius.size() < 2) return;
   const auto is_ghost = [&](std::size_t i) { return !ghost.empty() && ghost[i] != 0; };
   const PointGrid g = make_grid(position, radius, margin);
   if (g.start.empty()) {
     std::vector<Box> boxes;
     for (std::size_t i = 0; i < radius.size(); ++i)
       boxes.push_back(sphere_box(center(position, i), radius[i]));
-    Pairs pairs = find_pairs(boxes, margin);
+    pairs = find_pairs(boxes, margin);
     std::erase_if(pairs, [&](const auto& p) {
       return (is_ghost(p.first) && is_ghost(p.second)) ||
              !are_near(position, radius, margin, p.first, p.second);
     });
-    return pairs;
+    return;
   }
   const auto n_part = static_cast<std::size_t>(thread_count());
   std::vector<Pairs> part(n_part), before(n_part);  // before: of ghost ones with later own ones
+  const bool is_first = pairs.capacity() == 0;
+  part[0] = std::move(pairs);
   for_each_part(n_part, [&](std::size_t k) {
     // A packed sphere has 12 neighbours, half of them its own.
-    if (ghost.empty()) part[k].reserve(7 * radius.size() / n_part);
+    if (ghost.empty() && (k > 0 || is_first)) part[k].reserve(7 * radius.size() / n_part);
     for (std::size_t i = k * radius.size() / n_part; i < (k + 1) * radius.size() / n_part; ++i) {
       if (is_ghost(i)) continue;
       const auto c = g.cell_of(center(position, i));
@@ -131,18 +133,17 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
       std::sort(part[k].begin() + static_cast<std::ptrdiff_t>(first), part[k].end());
     }
   });
-  Pairs pairs = std::move(part[0]);
+  pairs = std::move(part[0]);
   for (std::size_t k = 1; k < n_part; ++k)
     pairs.insert(pairs.end(), part[k].begin(), part[k].end());
-  if (ghost.empty()) {
-    pairs.shrink_to_fit();  // the list is kept, and spheres at a surface have fewer neighbours
-    return pairs;
+  if (!ghost.empty()) {
+    const auto n_own = static_cast<std::ptrdiff_t>(pairs.size());
+    for (const Pairs& p : before) pairs.insert(pairs.end(), p.begin(), p.end());
+    std::sort(pairs.begin() + n_own, pairs.end());
+    std::inplace_merge(pairs.begin(), pairs.begin() + n_own, pairs.end());
   }
-  const auto n_own = static_cast<std::ptrdiff_t>(pairs.size());
-  for (const Pairs& p : before) pairs.insert(pairs.end(), p.begin(), p.end());
-  std::sort(pairs.begin() + n_own, pairs.end());
-  std::inplace_merge(pairs.begin(), pairs.begin() + n_own, pairs.end());
-  return pairs;
+  // The list is kept, and spheres at a surface have fewer neighbours.
+  if (pairs.capacity() > pairs.size() + pairs.size() / 8) pairs.shrink_to_fit();
 }
 
 }  // namespace acinus::contact

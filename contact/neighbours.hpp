@@ -8,15 +8,15 @@
 
 namespace acinus::contact {
 
-/// Pairs (i, j), i < j, of all spheres whose surfaces are closer than `margin`, um; ascending
-/// order.
+/// Pairs (i, j), i < j, of all spheres whose surfaces are closer than `margin`, um, in ascending
+/// order. They replace those in `pairs`, whose memory is used again.
 /// Cost linear in spheres and pairs (uniform grid of the largest sphere). The same for any number
 /// of threads.
 /// @param position  [row][3][lane] um, sphere i in lane i % kLanes of row i / kLanes
 /// @param radius    [n_sphere] um
 /// @param ghost     [n_sphere] 1: ghost cell. Pairs of two ghost cells are left out; empty: none
-std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
-                                                   std::span<const double> radius, double margin,
-                                                   std::span<const std::uint8_t> ghost = {});
+void find_sphere_pairs(const double* position, std::span<const double> radius, double margin,
+                       std::span<const std::uint8_t> ghost,
+                       std::vector<std::pair<int, int>>& pairs);
 
 }  // namespace acinus::contact

@@ -45,9 +45,8 @@ std::uint64_t peak_rss_bytes() {
 
 void keep_freed_memory() {
 #if defined(__GLIBC__)
-  constexpr int kMost = std::numeric_limits<int>::max();  // bytes
-  mallopt(M_MMAP_THRESHOLD, kMost);
-  mallopt(M_TRIM_THRESHOLD, kMost);
+  mallopt(M_MMAP_THRESHOLD, 1 << 22);                          // bytes
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());  // bytes
 #endif
 }
 

@@ -14,8 +14,9 @@ std::uint64_t rss_bytes();
 /// Largest resident memory of this process so far, bytes.
 std::uint64_t peak_rss_bytes();
 
-/// Makes the allocator keep large freed arrays for reuse by the next step: fresh memory from the
-/// system costs as much as writing to it.
+/// Makes the allocator keep freed arrays of up to 4 MB for reuse by the next step, since fresh
+/// memory from the system costs as much as writing to it. Larger arrays are mapped: as a tissue
+/// grows they move, and would leave gaps that nothing else fits.
 void keep_freed_memory();
 
 }  // namespace acinus

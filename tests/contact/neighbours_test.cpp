@@ -33,7 +33,9 @@ struct Cloud {
   }
   Pairs pairs(double margin) const {
     const std::vector<double> x = position();
-    return find_sphere_pairs(x.data(), radius, margin);
+    Pairs found{{-1, -1}};  // replaced
+    find_sphere_pairs(x.data(), radius, margin, {}, found);
+    return found;
   }
   Pairs every_pair_tried(double margin) const {
     Pairs found;
