@@ -116,7 +116,7 @@ export class Model {
         this.spheres.dispose();
       }
       // Coarser where there are many: they are small on the screen then.
-      const [wide, high] = n > 2000 ? [9, 6] : [24, 16];
+      const [wide, high] = n > 100000 ? [6, 4] : n > 2000 ? [9, 6] : [24, 16];
       this.spheres = new InstancedMesh(new SphereGeometry(1, wide, high), this.sphereMaterial, n);
       this.spheres.instanceColor = new InstancedBufferAttribute(new Float32Array(3 * n), 3);
       this.spheres.visible = this.showSpheres;
@@ -194,7 +194,7 @@ export class Model {
     const n = this.frame.row.size;
     if (n === 0 || !table.radius || still.corner.length > 0) return true;
     const [low, high] = this.box();
-    return low.distanceTo(high) <= LOOSE * Math.cbrt(n) * 2 * Math.max(...table.radius);
+    return low.distanceTo(high) <= LOOSE * Math.cbrt(n) * 2 * table.radius.reduce((a, r) => Math.max(a, r), 0);
   }
 
   // visit(x, y, z, radius) for every node and sphere
