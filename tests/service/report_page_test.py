@@ -149,6 +149,46 @@ def operate_fields(browser):
     click(browser, ".reset")
 
 
+def operate_surface(browser):
+    """The surface of a field has the level of its slider, changes with it and with time, and goes when it is not chosen."""
+    if browser.run("document.querySelector('#surface') == null"):
+        return
+    without = canvas(browser)
+    [_, name, *_] = browser.run("[...document.querySelector('#surface').options].map((o) => o.value)")
+    set_value(browser, "#surface", name, "change")
+    seen = {without, canvas(browser)}
+    assert len(seen) == 2, "no surface is seen"
+    text = "document.querySelector('#surface').parentElement.querySelector('output').textContent"
+    assert browser.run(text).endswith("mmHg"), browser.run(text)
+    for selector, value, event in (("[aria-label^=Level]", "0.8", "input"), (".time input", "0", "input")):
+        set_value(browser, selector, value, event)
+        assert canvas(browser) not in seen, f"{selector} does not change the surface"
+        seen.add(canvas(browser))
+    # Linear between two neighbouring middles of blocks, of which one is below and one above the level.
+    wrong = browser.run("""(() => {
+      const v = window.acinusViewer, [m] = v.models, { grid, group, parts: [mesh] } = m.surface;
+      const [low, high] = v.surfaceRange, level = low + 0.8 * (high - low);
+      const value = m.frame.fields[v.surface.value], p = mesh.geometry.getAttribute("position").array;
+      if (!group.visible || (p.length === 0 && value.some((c) => c > level) && value.some((c) => c <= level))) return "no surface";
+      for (let k = 0; k < p.length; k += 3) {
+        const at = [0, 1, 2].map((a) => (p[k + a] - grid.low[a]) / grid.spacing[a] - 0.5);
+        const ends = [Math.floor, Math.ceil].map((f) => at.map((x) => (Math.abs(x - Math.round(x)) < 1e-3 ? Math.round(x) : f(x))));
+        const near = [];
+        for (let c = 0; c < 8; ++c) {
+          const [i, j, l] = [0, 1, 2].map((a) => ends[(c >> a) & 1][a]);
+          near.push(value[i + grid.n[0] * (j + grid.n[1] * l)]);
+        }
+        const slack = 1e-3 * (high - low);
+        if (Math.min(...near) > level + slack || Math.max(...near) < level - slack) return `a corner at ${at} is not at the level`;
+      }
+      return "";
+    })()""")
+    assert not wrong, wrong
+    set_value(browser, "#surface", "", "change")
+    set_value(browser, ".time input", browser.run("document.querySelector('.time input').max"), "input")
+    click(browser, ".reset")
+
+
 def pick_a_cell(browser):
     box = browser.run("(() => { window.scrollTo(0, 0); const b = document.querySelector('.stage canvas').getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()")
     views = int(browser.run("document.querySelector('.stage').dataset.views"))
@@ -207,6 +247,7 @@ def try_page(browser, page, keep):
     seconds = load(browser, page)
     if browser.run("document.querySelector('.stage') != null"):
         operate_fields(browser)
+        operate_surface(browser)
         operate_viewer(browser)
         browser.picture(keep and f"{keep}/{name}_picked.png")
     operate_rest(browser)

@@ -6,6 +6,7 @@ import {
 import { colourOf, SELECTED, valueOf } from "./colour.js";
 import { makeSection } from "./section.js";
 import { FieldSlice } from "./slice.js";
+import { FieldSurface } from "./surface.js";
 import { disposeOf, drawWalls } from "./walls.js";
 
 const NUCLEUS = 3, OBSTACLE = 2;
@@ -35,7 +36,8 @@ export class Model {
     this.sphereMaterial = material({ clippingPlanes: [plane] });
     this.spheres = null;
     this.slice = new FieldSlice(grid);
-    this.scene.add(this.cells, this.still, ...this.makeSectionParts(), this.slice.mesh);
+    this.surface = new FieldSurface(plane, grid);
+    this.scene.add(this.cells, this.still, ...this.makeSectionParts(), this.slice.mesh, this.surface.group);
     this.marked = null;
     this.showSpheres = true;
     this.isCut = false;
@@ -71,6 +73,12 @@ export class Model {
   showSlice(field, axis, at, range, avoidsCells) {
     this.slice.show(this.frame, field, axis, at, range);
     this.slice.mesh.renderOrder = avoidsCells ? 0.5 : 2.5;
+  }
+
+  // visit(x, y, z) for the corners of the boxes of the slice and of the surface that are shown
+  forEachFieldCorner(visit) {
+    this.slice.forEachCorner(visit);
+    this.surface.forEachCorner(visit);
   }
 
   show(frame) {
@@ -207,18 +215,18 @@ export class Model {
     each(this.frame.sphere.center, this.frame.sphere.radius);
   }
 
-  // The same with the box of the fields while one of them is shown.
+  // The same with what is shown of the fields.
   fullBox() {
     const [low, high] = this.box();
     const p = new Vector3();
-    this.slice.forEachCorner((x, y, z) => { low.min(p.set(x, y, z)); high.max(p); });
+    this.forEachFieldCorner((x, y, z) => { low.min(p.set(x, y, z)); high.max(p); });
     return [low, high];
   }
 
   // Points that a picture of everything has to hold, walls included: visit(x, y, z, radius).
   forEachDrawn(visit) {
     this.forEachPoint(visit);
-    this.slice.forEachCorner((x, y, z) => visit(x, y, z, 0));
+    this.forEachFieldCorner((x, y, z) => visit(x, y, z, 0));
     this.drawnWalls?.traverse((o) => {
       const position = o.geometry?.getAttribute("position");
       for (let k = 0; k < (position?.count ?? 0); ++k) visit(position.getX(k) + o.position.x, position.getY(k) + o.position.y, position.getZ(k) + o.position.z, 0);

@@ -115,6 +115,7 @@ export class Viewer {
       make("div", { class: "row" }, make("label", { for: "field" }, "Colour by"), this.select, this.legend),
       this.makeSwitches(),
       this.makeFieldChoice(),
+      this.makeSurfaceChoice(),
       make("div", { class: "row" }, make("label", { for: "cut" }, "Cut"), this.axis, this.depth,
         make("button", { type: "button", class: "reset", onclick: () => this.reset() }, "Reset view")),
       make("p", { class: "hint" }, "Drag to turn, scroll to zoom, right-drag to move. Click a cell for its values and history."));
@@ -129,6 +130,33 @@ export class Viewer {
       ...Object.keys(unit).map((name) => make("option", { value: name }, labelOf(name))));
     this.sliceLegend = make("div", { class: "legend", "aria-live": "polite" });
     return make("div", { class: "row" }, make("label", { for: "slice" }, "Slice of"), this.slice, this.sliceLegend);
+  }
+
+  // A choice of the field of which a surface is shown, and its level; null without substances.
+  makeSurfaceChoice() {
+    if (!this.slice) return null;
+    this.surface = make("select", { id: "surface", onchange: () => this.surfaceOf(this.surface.value) }, ...[...this.slice.options].map((o) => make("option", { value: o.value }, o.textContent)));
+    this.level = make("input", { type: "range", min: 0, max: 1, step: 0.01, value: 0.5, disabled: true, "aria-label": "Level of the surface", oninput: () => { this.placeSurfaces(); this.draw(); } });
+    this.levelText = make("output", {});
+    return make("div", { class: "row" }, make("label", { for: "surface" }, "Iso-surface of"), this.surface, this.level, this.levelText);
+  }
+
+  // Shows the surface on which a field has the level of the slider, from its smallest to its largest value in all frames.
+  async surfaceOf(name) {
+    if (name) this.surfaceRange = extremesOf(name, await this.allFrames());
+    if (this.surface.value !== name) return; // another one was chosen meanwhile
+    this.level.disabled = !name;
+    this.placeSurfaces();
+    await this.reset();
+  }
+
+  placeSurfaces() {
+    if (!this.surface) return;
+    const name = this.surface.value, [low, high] = this.surfaceRange ?? [0, 1];
+    const level = low + +this.level.value * (high - low);
+    this.levelText.textContent = name ? `at ${number(+level.toPrecision(3))} ${nice(this.unitOfSlice[name])}` : "";
+    this.level.setAttribute("aria-valuetext", this.levelText.textContent);
+    for (const m of this.models) m.surface.show(m.frame, name, level, [low, high]);
   }
 
   // Shows a field of a substance in the plane of the cut, which begins in the middle across y.
@@ -158,6 +186,7 @@ export class Viewer {
     if (this.wanted !== wanted) return; // moved on meanwhile
     frames.forEach((f, i) => { this.models[i].show(f); this.models[i].cut(this.isCut()); });
     this.placeSlices();
+    this.placeSurfaces();
     this.tags.forEach((tag, i) => { tag.textContent = this.runs[i].name + (this.models[i].isCompact() ? "" : ": cells far apart at this time"); });
     this.slider.value = k;
     this.clock.textContent = `${duration(wanted)} · frame ${frames[0].number}`;
@@ -271,7 +300,8 @@ export class Viewer {
   // Depth range as tight as the tissue allows, so that section faces and surfaces stay apart.
   setDepthRange() {
     const middle = this.low.clone().add(this.high).multiplyScalar(0.5);
-    const reach = this.low.distanceTo(this.high) + 1;
+    let reach = this.low.distanceTo(this.high) + 1;
+    for (const m of this.models) m.forEachFieldCorner((x, y, z) => { reach = Math.max(reach, middle.distanceTo(new Vector3(x, y, z))); });
     const distance = this.camera.position.distanceTo(middle);
     this.camera.near = Math.max(distance - reach, reach / 500);
     this.camera.far = distance + reach;
