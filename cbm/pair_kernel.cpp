@@ -6,6 +6,7 @@
 
 #include "contact/jkr.hpp"
 #include "contact/jkr_lanes.hpp"
+#include "contact/pair_adhesion.hpp"
 #include "core/parallel/make_room.hpp"
 #include "core/parallel/threads.hpp"
 
@@ -114,7 +115,8 @@ class PairBatch {
     const std::vector<double>& softness = work_.type_softness;
     value.compliance[n_] = softness[ta] / of_a->value + softness[tb] / of_b->value;
     const TypePair& types = work_.type_pair[ta * softness.size() + tb];
-    value.adhesion[n_] = types.adhesion;
+    value.adhesion[n_] =
+        types.adhesion * contact::adhesion_factor(cells_.adhesion, i, cells_.adhesion, j);
     friction_[n_] = types.friction;
     value.was_touching[n_] = was_touching({a, b}) ? 1 : 0;
     return ++n_ == kLanes;

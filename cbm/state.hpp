@@ -75,7 +75,8 @@ struct CellData {
   std::span<const double> radius;         ///< [n_cell] um
   std::span<const double> strength = {};  ///< [n_cell] 0..1; empty: all 1
   std::span<const std::int64_t> mother =
-      {};  ///< [n_cell] lineage, -1: none; empty: all are sisters
+      {};                                 ///< [n_cell] lineage, -1: none; empty: all are sisters
+  std::span<const double> adhesion = {};  ///< [n_cell] factor on adhesion to cells; empty: all 1
 
   double strength_of(std::size_t cell) const { return strength.empty() ? 1 : strength[cell]; }
   /// Share of a contact of two spheres. Only sisters, which are born deep in each other, separate

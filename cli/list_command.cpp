@@ -45,9 +45,10 @@ int copy(const std::string& name, const std::string& folder) {
 
 /// Prints what became of each rule.
 int convert(const std::string& table, const std::string& folder,
-            const std::vector<std::string>& base) {
+            const std::vector<std::string>& base, const std::string& pressure) {
+  const double unit_pressure = pressure.empty() ? 0 : quantity_of("--pressure", pressure, kStress);
   const runs::ConvertedRules result =
-      runs::write_physicell_scene(table, folder, runs::parse_base_values(base));
+      runs::write_physicell_scene(table, folder, runs::parse_base_values(base), unit_pressure);
   for (const runs::RuleRemark& r : result.remark)
     fmt::print("{}:{}: {}{}\n", table, r.line, r.converted ? "" : "left out: ", r.text);
   fmt::print(
@@ -57,7 +58,7 @@ int convert(const std::string& table, const std::string& folder,
 }
 
 struct NewArguments {
-  std::string scene, folder, table;
+  std::string scene, folder, table, pressure;
   std::vector<std::string> base;
 };
 
@@ -66,7 +67,7 @@ int make(const NewArguments& a) {
     check(!a.scene.empty() && a.folder.empty(),
           "--from-physicell-rules takes one folder and no scene: acinus new "
           "--from-physicell-rules rules.csv my_cells");
-    return convert(a.table, a.scene, a.base);
+    return convert(a.table, a.scene, a.base, a.pressure);
   }
   check(!a.folder.empty(),
         "acinus new needs the name of a scene and a folder: acinus new two_cells "
@@ -102,6 +103,13 @@ Command add_new(CLI::App& app) {
                    "version 3 have not, e.g. --base \"necrosis=0.0028\"; may be repeated")
       ->type_name("[TYPE:]BEHAVIOUR=VALUE")
       ->allow_extra_args(false)
+      ->needs(table);
+  command
+      ->add_option(
+          "--pressure", a.pressure,
+          "pressure that 1 stands for in the table, where it has no unit; without it rules "
+          "of pressure are left out")
+      ->type_name("PRESSURE")
       ->needs(table);
   return {command, [arguments] { return make(*arguments); }};
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 namespace acinus::contact {
 
@@ -13,6 +14,13 @@ namespace acinus::contact {
 template <class ParamsA, class ParamsB>
 double pair_adhesion(const ParamsA& a, const ParamsB& b, std::size_t type_b) {
   return a.adhesion_with.empty() ? std::sqrt(a.adhesion * b.adhesion) : a.adhesion_with[type_b];
+}
+
+/// Factor on the adhesion energy of a pair: the geometric mean of those of its sides.
+/// @param of_a, of_b  factors on the adhesion energy of cells; empty: all 1
+inline double adhesion_factor(std::span<const double> of_a, std::size_t a,
+                              std::span<const double> of_b, std::size_t b) {
+  return of_a.empty() ? 1 : std::sqrt(of_a[a] * of_b[b]);
 }
 
 /// Largest adhesion energy of any pair, nN/um.

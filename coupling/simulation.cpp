@@ -7,6 +7,7 @@
 
 #include "core/numbers/time_grid.hpp"
 #include "coupling/life/rules.hpp"
+#include "coupling/measure/signals.hpp"
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/start_up.hpp"
 #include "coupling/step/held_cells.hpp"
@@ -92,7 +93,8 @@ bool Simulation::run_events(const Observer& observer) {
 StepResult Simulation::take_step(double limit, LastStep& last) {
   last.was_running = is_running();
   last.change = next_change(world_.params, time());
-  update_guidance(world_.params.substances, world_.state);
+  refresh_signals(world_, work_);
+  update_guidance(world_.params, world_.state);
   return advance(world_, work_, awake_, limit);
 }
 

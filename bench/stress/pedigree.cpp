@@ -80,7 +80,7 @@ Interval Pedigree::rest_volume(const Relative& r, double time) const {
 }
 
 bool Pedigree::may_die(std::int64_t id, const Relative& r, double time) const {
-  for (const coupling::SignalRule& rule : params_.substances.rule)
+  for (const coupling::SignalRule& rule : params_.rules.rule)
     if (rule.behaviour == coupling::Behaviour::kDeath &&
         (rule.type < 0 || rule.type == static_cast<int>(r.type)))
       return true;
@@ -165,11 +165,11 @@ std::vector<Finding> Pedigree::add(const io::Event& e) {
 
 std::vector<Finding> Pedigree::find_overdue(double time) const {
   std::vector<Finding> late;
-  // Substances that slow growth leave no latest time of division.
+  // Signals that slow growth leave no latest time of division.
   const bool may_rest =
       std::ranges::any_of(params_.life.rule,
                           [](const coupling::LifeRule& rule) { return !rule.die; }) ||
-      std::ranges::any_of(params_.substances.rule, [](const coupling::SignalRule& rule) {
+      std::ranges::any_of(params_.rules.rule, [](const coupling::SignalRule& rule) {
         return rule.behaviour == coupling::Behaviour::kGrowth;
       });
   for (const auto& [id, r] : all_) {

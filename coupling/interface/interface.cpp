@@ -26,19 +26,25 @@ struct PairLaw {
   double hardening = 0;  ///< nN/um^4, derivative of the stiffness with respect to indentation
 };
 
+/// Adhesion energy of a deformable cell and a sphere in this step, nN/um.
+double pair_adhesion(const InterfaceInput& in, std::size_t lane, std::size_t sphere) {
+  const std::size_t type = in.cbm.state.type[sphere];
+  const dcm::Params& a = in.dcm.params[in.dcm.state.group[lane / kLanes].type];
+  return in.dcm.options.adhesion_factor * contact::pair_adhesion(a, in.cbm.params[type], type) *
+         contact::adhesion_factor(in.dcm.adhesion, lane, in.cbm.cells.adhesion, sphere);
+}
+
 PairLaw law_of(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
                std::span<const cbm::Modulus> modulus, const Contact& k) {
   const std::size_t body = k.a, sphere = k.b;
   const std::size_t lane = dcm_work.lane_of_body[body];
-  const dcm::Params& a = in.dcm.params[in.dcm.state.group[lane / kLanes].type];
   const cbm::Params& b = in.cbm.params[in.cbm.state.type[sphere]];
   const Compliance under =
       compute_compliance(in.dcm.options.repulsion,
                          {in.cbm.cells.radius[sphere], in.cbm.state.young[sphere], b.poisson,
                           modulus[sphere], b.correction.corrects() ? &b.correction : nullptr},
                          k.depth());
-  return {{in.dcm.options.adhesion_factor * contact::pair_adhesion(a, b, in.cbm.state.type[sphere]),
-           under.stiffness,
+  return {{pair_adhesion(in, lane, sphere), under.stiffness,
            in.dcm.options.range_factor * dcm_work.body[body].topology->mean_rest_length *
                in.dcm.lanes.radius[lane]},
           k.gap < 0 ? under.slope * k.depth() : 0};
@@ -86,12 +92,8 @@ void find_triangle_pair(const InterfaceInput& in, const dcm::ContactWorkspace& d
   const std::size_t lane = dcm_work.lane_of_body[body];
   const Vec3 center = cbm::center_of(in.cbm.state, sphere);
   const double radius = in.cbm.cells.radius[sphere];
-  const std::size_t type = in.cbm.state.type[sphere];
-  const double adhesion = contact::pair_adhesion(
-      in.dcm.params[in.dcm.state.group[lane / kLanes].type], in.cbm.params[type], type);
   const contact::MaugisLaw law = dcm::maugis_law(
-      in.dcm.options,
-      {in.dcm.options.adhesion_factor * adhesion, surface_modulus(in.cbm, cbm_work, sphere)});
+      in.dcm.options, {pair_adhesion(in, lane, sphere), surface_modulus(in.cbm, cbm_work, sphere)});
   const Contact like{.a = pair.first, .b = pair.second, .partner = contact::Partner::kSphere};
   const std::vector<contact::CurvedTriangle>& triangle = dcm_work.triangles.curved[body];
   for (std::size_t t = 0; t < triangle.size(); ++t) {

@@ -10,6 +10,7 @@
 #include "coupling/life/density.hpp"
 #include "coupling/life/proliferation.hpp"
 #include "coupling/measure/measure.hpp"
+#include "coupling/measure/signals.hpp"
 #include "coupling/substances/fields.hpp"
 #include "coupling/substances/responses.hpp"
 
@@ -87,17 +88,16 @@ void look_at_rules(World& world, Workspace& work, Plan& plan) {
   if (now == s.life_interval) return;
   s.life_interval = now;
   std::vector<double> factor = growth_factors(world, work);
-  const SubstanceParams& signals = world.params.substances;
-  const bool signals_growth = has_rule(signals, Behaviour::kGrowth);
-  std::vector<std::vector<double>> concentration;
-  if (signals_growth || has_rule(signals, Behaviour::kDeath))
-    concentration = cell_concentrations(world);
-  if (signals_growth) scale_growth(world, concentration, factor);
+  refresh_signals(world, work);
+  const bool signals_growth = has_rule(world.params.rules, Behaviour::kGrowth);
+  constexpr Behaviour kLife[] = {Behaviour::kGrowth, Behaviour::kDeath};
+  const RuleSignals signal = rule_signals(world, kLife);
+  if (signals_growth) scale_growth(world, signal, factor);
   if (p.proliferation) let_proliferate(world, factor);
   for_each_cell(s, [&](const Cell& c) {
     Cycle& cycle = s.cycle[c.index];
     if (cycle.fate == Fate::kLyse) return;
-    if (applies_any(p, true, s, c) || dies_of_signal(world, c, concentration, now)) {
+    if (applies_any(p, true, s, c) || dies_of_signal(world, c, signal, now)) {
       (cycle_of(world.params, s, c).death.lysis ? plan.lyse : plan.remove).push_back(c);
       return;
     }
@@ -125,7 +125,7 @@ void look_at_clocks(const World& world, Plan& plan) {
 }  // namespace
 
 bool has_life(const Params& p) {
-  return !p.life.rule.empty() || has_rule(p.substances, Behaviour::kDeath) ||
+  return !p.life.rule.empty() || has_rule(p.rules, Behaviour::kDeath) ||
          std::ranges::any_of(p.life.type, [](const CycleParams& c) { return c.time > 0; });
 }
 
@@ -178,8 +178,9 @@ Plan make_plan(World& world, Workspace& work) {
 
 double time_to_life_event(const World& world) {
   const LifeParams& p = world.params.life;
-  const bool signalled = has_rule(world.params.substances, Behaviour::kGrowth) ||
-                         has_rule(world.params.substances, Behaviour::kDeath);
+  const RuleParams& rules = world.params.rules;
+  const bool signalled = has_rule(rules, Behaviour::kGrowth) ||
+                         has_rule(rules, Behaviour::kDeath) || has_measured_signal(rules);
   if (p.rule.empty() && !p.proliferation && !signalled &&
       std::ranges::none_of(p.type, is_inhibited))
     return std::numeric_limits<double>::infinity();

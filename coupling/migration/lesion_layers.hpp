@@ -24,7 +24,8 @@ double distance_to_edge(const LayerCell& cell, std::span<const LayerCell> cells,
 /// @param axis_point  the axis is vertical through it
 int local_layer_of(const LayerCell& cell, std::span<const LayerCell> cells, const Vec3& axis_point);
 
-/// Layers of all cells. Cost: all pairs.
+/// Layers of all cells. Cost: at most all pairs; a cell is compared with those nearer the axis
+/// until one is before it.
 std::vector<int> compute_layers(std::span<const LayerCell> cells, const Vec3& axis_point);
 
 }  // namespace acinus::coupling

@@ -65,11 +65,11 @@ bool is_dissolving(const State& s, const Cell& c) {
 }
 
 /// Exchange of a cell per volume; that of its surface is spread over its volume.
-/// @param signal  of cell_concentrations; may be empty without rules of secretion and uptake
-substances::Exchange exchange_of(const SubstanceParams& p, std::size_t k, const State& s,
-                                 const Cell& c, std::span<const substances::VoxelShare> shares,
-                                 const std::vector<std::vector<double>>& signal) {
-  const Substance& substance = p.substance[k];
+/// @param signal  of rule_signals; may be empty without rules of secretion and uptake
+substances::Exchange exchange_of(const Params& p, std::size_t k, const State& s, const Cell& c,
+                                 std::span<const substances::VoxelShare> shares,
+                                 const RuleSignals& signal) {
+  const Substance& substance = p.substances.substance[k];
   const auto type = static_cast<std::size_t>(type_of(s, c));
   if (type >= substance.exchange.size() || is_dissolving(s, c)) return {};
   const CellExchange& of_type = substance.exchange[type];
@@ -82,16 +82,17 @@ substances::Exchange exchange_of(const SubstanceParams& p, std::size_t k, const 
     e.uptake += of_type.uptake_per_area * area / volume;
   }
   const ExchangeFactors f =
-      exchange_factors(p, static_cast<int>(k), static_cast<int>(type), c.index, signal);
+      exchange_factors(p.rules, static_cast<int>(k), static_cast<int>(type), c.index, signal);
   e.secretion *= f.secretion;
   e.uptake *= f.uptake;
   e.uptake_max *= f.uptake;
   return e;
 }
 
-std::vector<substances::Exchange> exchange_of_cells(
-    const SubstanceParams& p, std::size_t k, const State& s, const std::vector<Cell>& cells,
-    const substances::Shares& shares, const std::vector<std::vector<double>>& signal) {
+std::vector<substances::Exchange> exchange_of_cells(const Params& p, std::size_t k, const State& s,
+                                                    const std::vector<Cell>& cells,
+                                                    const substances::Shares& shares,
+                                                    const RuleSignals& signal) {
   std::vector<substances::Exchange> exchange(cells.size());
   for_each_index(cells.size(), cells.size() > kParallelShares, [&](std::size_t c) {
     exchange[c] = exchange_of(p, k, s, cells[c], shares.of(c), signal);
@@ -146,11 +147,7 @@ std::vector<std::vector<double>> of_each_cell(const World& world, const F& f) {
   return value;
 }
 
-/// Concentrations that rules of secretion and uptake respond to; empty without such rules.
-std::vector<std::vector<double>> signals_of_exchange(const World& world) {
-  if (!has_exchange_rule(world.params.substances)) return {};
-  return cell_concentrations(world);
-}
+constexpr Behaviour kExchange[] = {Behaviour::kSecretion, Behaviour::kUptake};
 
 }  // namespace
 
@@ -200,7 +197,7 @@ void advance_substances(World& world, double step, SubstanceWorkspace& work, Tim
     work.sized = true;
   }
   const std::vector<Cell> cells = list_cells(s);
-  const std::vector<std::vector<double>> signal = signals_of_exchange(world);
+  const RuleSignals signal = rule_signals(world, kExchange);
   SharesOfCells all(p, s);
   const OpenSpaces spaces = find_open_spaces(world, work.obstacles);
   substances::Parts parts;
@@ -217,7 +214,7 @@ void advance_substances(World& world, double step, SubstanceWorkspace& work, Tim
                                            : move_to_open(everywhere, *space);
     const substances::Shares& shares = space == nullptr ? everywhere : in_open;
     const std::vector<substances::Exchange> exchange =
-        exchange_of_cells(p, k, s, cells, shares, signal);
+        exchange_of_cells(world.params, k, s, cells, shares, signal);
     const double middle = time_of(s) - 0.5 * step;
     substances::Advance how{step, p.longest_step, p.tolerance};
     if (!substance.course.entry.empty()) how.supply = substance.course.at(middle);
@@ -273,14 +270,32 @@ std::vector<std::vector<double>> cell_concentrations(const World& world) {
                 const std::vector<double>& c) { return substances::mean_over(shares, c); });
 }
 
+RuleSignals rule_signals(const World& world, std::span<const Behaviour> behaviours) {
+  const std::vector<SignalRule>& rules = world.params.rules.rule;
+  const State& s = world.state;
+  RuleSignals signal(rules.size());
+  std::vector<std::vector<double>> concentration;
+  for (std::size_t k = 0; k < rules.size(); ++k) {
+    if (std::ranges::find(behaviours, rules[k].behaviour) == behaviours.end()) continue;
+    if (rules[k].signal == Signal::kConcentration) {
+      if (concentration.empty()) concentration = cell_concentrations(world);
+      signal[k] = concentration[rules[k].substance];
+      continue;
+    }
+    signal[k].assign(s.dcm.n_lane() + s.cbm.n_cell(), 0.0);
+    for_each_cell(
+        s, [&](const Cell& c) { signal[k][c.index] = own_signal(world.params.rules, k, s, c); });
+  }
+  return signal;
+}
+
 std::vector<std::vector<double>> cell_exchange_rates(const World& world) {
   const State& s = world.state;
-  const std::vector<std::vector<double>> signal = signals_of_exchange(world);
+  const RuleSignals signal = rule_signals(world, kExchange);
   return of_each_cell(
       world, [&](std::size_t k, const Cell& c, std::span<const substances::VoxelShare> shares,
                  const std::vector<double>& concentration) {
-        const substances::Exchange exchange =
-            exchange_of(world.params.substances, k, s, c, shares, signal);
+        const substances::Exchange exchange = exchange_of(world.params, k, s, c, shares, signal);
         double sum = 0;
         for (const substances::VoxelShare& share : shares)
           sum += share.volume * substances::exchange_rate(exchange, concentration[share.voxel]);

@@ -1,9 +1,11 @@
 #pragma once
 /// Fields of substances around the cells of a world.
 
+#include <span>
 #include <vector>
 
 #include "coupling/substances/open_spaces.hpp"
+#include "coupling/substances/responses.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 #include "substances/shares.hpp"
@@ -48,6 +50,9 @@ double amount_of(const SubstanceParams& params, const SubstanceState& field);
 /// Mean concentration in each cell, or at its surface if the substance is kept out of it;
 /// [substance][dcm lanes, then cbm cells]; empty without substances.
 std::vector<std::vector<double>> cell_concentrations(const World& world);
+
+/// Signals of the rules of some behaviours: concentrations as above, ages, values measured last.
+RuleSignals rule_signals(const World& world, std::span<const Behaviour> behaviours);
 
 /// Secretion minus uptake of each cell, amount / s at the present concentrations;
 /// indexed as cell_concentrations.

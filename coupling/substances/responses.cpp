@@ -10,10 +10,6 @@
 namespace acinus::coupling {
 namespace {
 
-bool concerns(const SignalRule& r, Behaviour behaviour, int type) {
-  return r.behaviour == behaviour && (r.type < 0 || r.type == type);
-}
-
 /// Direction of a gradient, its length the share of the full effect.
 Vec3 sense(const substances::VoxelGrid& grid, const std::vector<double>& field, const Vec3& center,
            double radius, double sensitivity) {
@@ -26,33 +22,51 @@ Vec3 sense(const substances::VoxelGrid& grid, const std::vector<double>& field, 
 
 }  // namespace
 
-double signal_response(const SignalRule& r, double concentration) {
-  const double x = std::pow(std::max(concentration, 0.0) / r.half_max, r.power);
+double signal_response(const SignalRule& r, double signal) {
+  const double x = std::pow(std::max(signal, 0.0) / r.half_max, r.power);
   const double rises = std::isinf(x) ? 1 : x / (1 + x);
   return r.decreases ? 1 - rises : rises;
 }
 
-bool has_rule(const SubstanceParams& p, Behaviour behaviour) {
+bool has_rule(const RuleParams& p, Behaviour behaviour) {
   return std::ranges::any_of(p.rule, [&](const SignalRule& r) { return r.behaviour == behaviour; });
 }
 
-void scale_growth(const World& world, const std::vector<std::vector<double>>& concentration,
-                  std::vector<double>& factor) {
+bool has_measured_signal(const RuleParams& p) {
+  return std::ranges::any_of(p.rule, [](const SignalRule& r) { return is_measured(r.signal); });
+}
+
+bool acts_on(const SignalRule& r, Behaviour behaviour, int type) {
+  return r.behaviour == behaviour && (r.type < 0 || r.type == type);
+}
+
+double age_of(const State& s, const Cell& c) {
+  const double birth = c.index < s.cycle.size() ? s.cycle[c.index].birth : s.clock.origin;
+  return s.clock.time - birth;
+}
+
+double own_signal(const RuleParams& p, std::size_t k, const State& s, const Cell& c) {
+  if (p.rule[k].signal == Signal::kAge) return age_of(s, c);
+  return s.signal.value.empty() ? 0 : s.signal.value[k][c.index];
+}
+
+void scale_growth(const World& world, const RuleSignals& signal, std::vector<double>& factor) {
+  const std::vector<SignalRule>& rules = world.params.rules.rule;
   for_each_cell(world.state, [&](const Cell& c) {
-    for (const SignalRule& r : world.params.substances.rule)
-      if (concerns(r, Behaviour::kGrowth, type_of(world.state, c)))
-        factor[c.index] *= signal_response(r, concentration[r.signal][c.index]);
+    for (std::size_t k = 0; k < rules.size(); ++k)
+      if (acts_on(rules[k], Behaviour::kGrowth, type_of(world.state, c)))
+        factor[c.index] *= signal_response(rules[k], signal[k][c.index]);
   });
 }
 
-bool dies_of_signal(const World& world, const Cell& c,
-                    const std::vector<std::vector<double>>& concentration, std::int64_t interval) {
-  const std::vector<SignalRule>& rules = world.params.substances.rule;
+bool dies_of_signal(const World& world, const Cell& c, const RuleSignals& signal,
+                    std::int64_t interval) {
+  const std::vector<SignalRule>& rules = world.params.rules.rule;
   const LifeParams& life = world.params.life;
   for (std::size_t k = 0; k < rules.size(); ++k) {
     const SignalRule& r = rules[k];
-    if (!concerns(r, Behaviour::kDeath, type_of(world.state, c))) continue;
-    const double rate = r.rate * signal_response(r, concentration[r.signal][c.index]);
+    if (!acts_on(r, Behaviour::kDeath, type_of(world.state, c))) continue;
+    const double rate = r.rate * signal_response(r, signal[k][c.index]);
     if (rate > 0 && uniform({life.seed, Purpose::kSignalDeath,
                              static_cast<std::uint64_t>(lineage_of(world.state, c)),
                              static_cast<std::uint64_t>(interval), static_cast<std::uint32_t>(k)}) <
@@ -62,44 +76,53 @@ bool dies_of_signal(const World& world, const Cell& c,
   return false;
 }
 
-bool has_exchange_rule(const SubstanceParams& p) {
-  return has_rule(p, Behaviour::kSecretion) || has_rule(p, Behaviour::kUptake);
-}
-
-ExchangeFactors exchange_factors(const SubstanceParams& p, int substance, int type,
-                                 std::size_t index,
-                                 const std::vector<std::vector<double>>& concentration) {
+ExchangeFactors exchange_factors(const RuleParams& p, int substance, int type, std::size_t index,
+                                 const RuleSignals& signal) {
   ExchangeFactors factors;
-  for (const SignalRule& r : p.rule) {
+  for (std::size_t k = 0; k < p.rule.size(); ++k) {
+    const SignalRule& r = p.rule[k];
     if (r.of != substance) continue;
-    if (concerns(r, Behaviour::kSecretion, type))
-      factors.secretion *= signal_response(r, concentration[r.signal][index]);
-    if (concerns(r, Behaviour::kUptake, type))
-      factors.uptake *= signal_response(r, concentration[r.signal][index]);
+    if (acts_on(r, Behaviour::kSecretion, type))
+      factors.secretion *= signal_response(r, signal[k][index]);
+    if (acts_on(r, Behaviour::kUptake, type))
+      factors.uptake *= signal_response(r, signal[k][index]);
   }
   return factors;
 }
 
-void update_guidance(const SubstanceParams& p, State& s) {
-  if (p.leader_signal < 0 && !has_rule(p, Behaviour::kChemotaxis) &&
-      !has_rule(p, Behaviour::kMotility))
-    return;
-  if (s.clock.phase != Phase::kRun) return;
-  s.guidance.assign(s.dcm.n_lane() + s.cbm.n_cell(), Guidance{});
+void update_guidance(const Params& p, State& s) {
+  const SubstanceParams& fields = p.substances;
+  const RuleParams& rules = p.rules;
+  const bool adheres = has_rule(rules, Behaviour::kAdhesion);
+  const bool moves = fields.leader_signal >= 0 || has_rule(rules, Behaviour::kChemotaxis) ||
+                     has_rule(rules, Behaviour::kMotility);
+  if (s.clock.phase != Phase::kRun || !(moves || adheres)) return;
+  const std::size_t n_cell = s.dcm.n_lane() + s.cbm.n_cell();
+  if (moves) s.guidance.assign(n_cell, Guidance{});
+  if (adheres) s.adhesion.assign(n_cell, 1.0);
   for_each_cell(s, [&](const Cell& c) {
+    const int type = type_of(s, c);
     const Vec3 center = center_of(s, c);
     const double radius = sphere_radius(volume_of(s, c).at(s.clock.time));
-    Guidance& g = s.guidance[c.index];
-    if (p.leader_signal >= 0)
-      g.heading = sense(p.grid, s.substance[p.leader_signal].concentration, center, radius,
-                        p.leader_sensitivity);
-    for (const SignalRule& r : p.rule) {
-      const std::vector<double>& field = s.substance[r.signal].concentration;
-      if (concerns(r, Behaviour::kMotility, type_of(s, c)))
-        g.motility *= signal_response(r, substances::interpolate(p.grid, field, center));
-      if (!concerns(r, Behaviour::kChemotaxis, type_of(s, c))) continue;
-      g.force += r.force * signal_response(r, substances::interpolate(p.grid, field, center)) *
-                 sense(p.grid, field, center, radius, r.sensitivity);
+    const auto field = [&](int substance) -> const std::vector<double>& {
+      return s.substance[substance].concentration;
+    };
+    if (fields.leader_signal >= 0)
+      s.guidance[c.index].heading = sense(fields.grid, field(fields.leader_signal), center, radius,
+                                          fields.leader_sensitivity);
+    for (std::size_t k = 0; k < rules.rule.size(); ++k) {
+      const SignalRule& r = rules.rule[k];
+      const auto response = [&] {
+        return signal_response(
+            r, r.signal == Signal::kConcentration
+                   ? substances::interpolate(fields.grid, field(r.substance), center)
+                   : own_signal(rules, k, s, c));
+      };
+      if (acts_on(r, Behaviour::kMotility, type)) s.guidance[c.index].motility *= response();
+      if (acts_on(r, Behaviour::kAdhesion, type)) s.adhesion[c.index] *= response();
+      if (acts_on(r, Behaviour::kChemotaxis, type))
+        s.guidance[c.index].force +=
+            r.force * response() * sense(fields.grid, field(r.of), center, radius, r.sensitivity);
     }
   });
 }

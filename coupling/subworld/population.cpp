@@ -38,6 +38,28 @@ void sort_along_curve(std::vector<SelectedCell<State>>& members, const CenterOf&
   members = std::move(sorted);
 }
 
+/// Gives fresh cells the measured signals and the adhesion that they had in another model, or that
+/// their mother had.
+void inherit_signals(std::span<const State> fresh, const State& before, State& s) {
+  if (before.signal.value.empty() && before.adhesion.empty()) return;
+  const std::size_t n_cell = s.dcm.n_lane() + s.cbm.n_cell();
+  s.signal.value.resize(before.signal.value.size());
+  for (std::size_t k = 0; k < before.signal.value.size(); ++k)
+    if (!before.signal.value[k].empty()) s.signal.value[k].resize(n_cell, 0.0);
+  if (!before.adhesion.empty()) s.adhesion.resize(n_cell, 1.0);
+  const CellIndex then = index_cells(before), now = index_cells(s);
+  for (const State& f : fresh)
+    for_each_cell(f, [&](const Cell& c) {
+      auto from = then.find(lineage_of(f, c));
+      if (from == then.end() && c.index < f.cycle.size()) from = then.find(f.cycle[c.index].parent);
+      if (from == then.end()) return;
+      const std::size_t at = from->second.index, to = now.at(lineage_of(f, c)).index;
+      for (std::size_t k = 0; k < before.signal.value.size(); ++k)
+        if (!before.signal.value[k].empty()) s.signal.value[k][to] = before.signal.value[k][at];
+      if (!before.adhesion.empty()) s.adhesion[to] = before.adhesion[at];
+    });
+}
+
 }  // namespace
 
 State compose(std::span<const SelectedCell<State>> dcm, std::span<const SelectedCell<State>> cbm,
@@ -70,6 +92,16 @@ State compose(std::span<const SelectedCell<State>> dcm, std::span<const Selected
     if (!from.guidance.empty()) {
       s.guidance.resize(n_cell);
       s.guidance[to] = from.guidance[at];
+    }
+    for (std::size_t k = 0; k < from.signal.value.size(); ++k) {
+      s.signal.value.resize(from.signal.value.size());
+      if (from.signal.value[k].empty()) continue;
+      s.signal.value[k].resize(n_cell, 0.0);
+      s.signal.value[k][to] = from.signal.value[k][at];
+    }
+    if (!from.adhesion.empty()) {
+      s.adhesion.resize(n_cell, 1.0);
+      s.adhesion[to] = from.adhesion[at];
     }
     if (value_of(from.asleep, at, std::uint8_t{0}) == 0) return;
     s.asleep.resize(n_cell, 0);
@@ -104,6 +136,7 @@ State compose(std::span<const SelectedCell<State>> dcm, std::span<const Selected
   s.leader_interval = like.leader_interval;
   s.life_interval = like.life_interval;
   s.sleep_interval = like.sleep_interval;
+  s.signal.interval = like.signal.interval;
   s.fading = like.fading;
   s.next_lineage = like.next_lineage;
   s.divisions = like.divisions;
@@ -145,6 +178,7 @@ void exchange_cells(std::span<const std::uint8_t> gone, std::span<const int> typ
   }
   sort_by_place(shells, spheres);
   State next = compose(shells, spheres, s);
+  inherit_signals(fresh, s, next);
   if (has_last_move(s)) {
     const auto of_tree =
         s.last_move.end() - static_cast<std::ptrdiff_t>(s.tree.n_row()) * kPointStride;

@@ -14,16 +14,21 @@ InterfaceInput contact_input(const World& world, const State& at, const PhasePar
                              double wall_time, const Workspace& w) {
   const Params& p = world.params;
   const contact::Boundary& boundary = w.boundary ? *w.boundary : p.boundary;
-  return {{at.dcm, p.dcm, phase.dcm, w.lanes, boundary, wall_time, tree_first_row(at)},
-          {at.cbm,
-           p.cbm,
-           phase.cbm,
-           {w.cbm_radius, w.cbm_strength, w.cbm_mother},
-           boundary,
-           wall_time,
-           cbm_first_row(at),
-           tree_first_row(at)},
-          phase.interface};
+  const std::span<const double> adhesion = at.adhesion;
+  const bool responds = !adhesion.empty();
+  const std::size_t n_lane = at.dcm.n_lane();
+  return {
+      {at.dcm, p.dcm, phase.dcm, w.lanes, boundary, wall_time, tree_first_row(at),
+       responds ? adhesion.first(n_lane) : adhesion},
+      {at.cbm,
+       p.cbm,
+       phase.cbm,
+       {w.cbm_radius, w.cbm_strength, w.cbm_mother, responds ? adhesion.subspan(n_lane) : adhesion},
+       boundary,
+       wall_time,
+       cbm_first_row(at),
+       tree_first_row(at)},
+      phase.interface};
 }
 
 }  // namespace acinus::coupling

@@ -1,5 +1,5 @@
 #pragma once
-/// Substances that diffuse around cells, and the responses of cells to them: constants and state.
+/// Substances that diffuse around cells: constants and state.
 
 #include <cstdint>
 #include <string>
@@ -34,36 +34,9 @@ struct Substance {
   bool is_kept_out() const { return outside_cells || outside_obstacles; }
 };
 
-/// Behaviour of a cell that a substance changes.
-enum class Behaviour : std::uint8_t {
-  kGrowth,
-  kDeath,
-  kMotility,
-  kChemotaxis,
-  kSecretion,
-  kUptake
-};
-
-/// Response of cells to a substance: a Hill function of the concentration at the cell,
-/// c^power / (half_max^power + c^power), or 1 minus it.
-struct SignalRule {
-  int signal = 0;  ///< index of the substance
-  Behaviour behaviour = Behaviour::kGrowth;
-  bool decreases = false;  ///< the response falls with the concentration
-  int type = -1;           ///< cell type; -1: all
-  double half_max = 1;     ///< concentration
-  double power = 4;
-  int of = -1;       ///< kSecretion, kUptake: index of the substance that is exchanged
-  double rate = 0;   ///< 1/s, kDeath: rate at full response
-  double force = 0;  ///< nN, kChemotaxis: force up the gradient at full response; < 0: down
-  double sensitivity =
-      0.01;  ///< kChemotaxis: relative difference across the cell of half the force
-};
-
 struct SubstanceParams {
   substances::VoxelGrid grid;
   std::vector<Substance> substance;
-  std::vector<SignalRule> rule;
   double longest_step = 0;  ///< s; 0: the step of the tissue
   double tolerance = 1e-6;
   int leader_signal = -1;  ///< substance whose gradient leaders follow; -1: toward the vein axis
@@ -84,13 +57,6 @@ struct SubstanceState {
   std::vector<double> open;           ///< [n_voxel] open fraction of a voxel; empty: all is open
   InsideState inside;                 ///< empty without membranes
   double secreted = 0, entered = 0, supplied = 0, decayed = 0;
-};
-
-/// Motion of a cell that substances change.
-struct Guidance {
-  double motility = 1;          ///< factor on the diffusion coefficient of random motion
-  Vec3 force = Vec3::Zero();    ///< nN, chemotaxis
-  Vec3 heading = Vec3::Zero();  ///< of leaders; shorter than 1 where the gradient is weak
 };
 
 }  // namespace acinus::coupling

@@ -18,6 +18,7 @@
 #include "coupling/vessels/vessel_tree.hpp"
 #include "coupling/world/cycle.hpp"
 #include "coupling/world/fading_force.hpp"
+#include "coupling/world/signal.hpp"
 #include "coupling/world/substance.hpp"
 #include "coupling/world/zoom.hpp"
 #include "dcm/contact/contact_params.hpp"
@@ -100,6 +101,7 @@ struct Params {
   VesselTree tree;
   Apparatus apparatus;
   SubstanceParams substances;
+  RuleParams rules;
 };
 
 /// Pending events after the last step. A step and its events are one, unless the process is asked
@@ -150,8 +152,12 @@ struct PresentState {
   std::vector<double> settle_pressure;    ///< kPa per cell at the last check of the settling phase
   double settle_time = -1;                ///< s, time of that check
   std::vector<SubstanceState> substance;  ///< empty: none
-  /// [dcm lanes, then cbm cells] written before each step; empty: no cell follows a gradient
+  SignalState signal;
+  /// [dcm lanes, then cbm cells] written before each step; empty: no rule acts on motion
   std::vector<Guidance> guidance;
+  /// [dcm lanes, then cbm cells] factor on the adhesion energy of a cell, written before each step
+  /// and constant in it; that of a pair is the geometric mean. Empty: all 1
+  std::vector<double> adhesion;
 };
 
 /// State of the world: exactly the contents of a checkpoint.

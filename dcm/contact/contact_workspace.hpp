@@ -28,6 +28,7 @@ struct ContactInput {
   const contact::Boundary& boundary;
   double time = 0;                            ///< s, at which moving walls are evaluated
   std::size_t vessel_row = contact::kAtRest;  ///< first row of the nodes of moving vessels
+  std::span<const double> adhesion = {};      ///< [n_lane] factor on adhesion to cells; empty: 1
 };
 
 /// Scratch of the search between triangles.

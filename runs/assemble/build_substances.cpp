@@ -165,16 +165,6 @@ coupling::Substance make_substance(const Scene& scene, const SubstanceBlock& b,
   return s;
 }
 
-coupling::SignalRule make_rule(const Scene& scene, const SignalRuleEntry& entry) {
-  coupling::SignalRule rule = entry;
-  rule.signal = index_of(scene, entry.substance);
-  if (!entry.exchanged.empty()) rule.of = index_of(scene, entry.exchanged);
-  if (!entry.cell_type.empty())
-    rule.type = static_cast<int>(
-        std::distance(scene.cell_types.begin(), scene.cell_types.find(entry.cell_type)));
-  return rule;
-}
-
 void check_inside(const Scene& scene, const coupling::World& world) {
   const std::vector<std::int64_t> outside = find_cells_outside_fields(world);
   if (outside.empty()) return;
@@ -224,7 +214,6 @@ void build_substances(const Scene& scene, coupling::World& world, Notes& notes) 
       scene.motility.leader_signal.empty() ? -1 : index_of(scene, scene.motility.leader_signal);
   for (const SubstanceBlock& b : scene.substances)
     p.substance.push_back(make_substance(scene, b, world));
-  for (const SignalRuleEntry& r : scene.rules) p.rule.push_back(make_rule(scene, r));
   check_inside(scene, world);
   coupling::begin_substances(p, world.state);
   coupling::begin_open_spaces(world);

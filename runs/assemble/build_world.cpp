@@ -24,6 +24,7 @@
 #include "runs/assemble/build_correction.hpp"
 #include "runs/assemble/build_life.hpp"
 #include "runs/assemble/build_params.hpp"
+#include "runs/assemble/build_rules.hpp"
 #include "runs/assemble/build_substances.hpp"
 #include "runs/assemble/cell_types.hpp"
 #include "runs/assemble/place_cells.hpp"
@@ -212,6 +213,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   }
   build_corrections(scene, p.cbm, built.notes);
   build_life(scene, p, built.type_names);
+  p.rules = build_rules(scene, built.notes);
   note_late_rules(scene, built.notes);
   note_leaders_without_vein(scene, built.notes);
   set_params(scene, p);

@@ -53,9 +53,61 @@ std::vector<float> mean_of_voxels(const substances::VoxelGrid& grid,
   return mean;
 }
 
+/// Writes the motion and adhesion of cells that rules change, and measured signals. Names are those
+/// of files that had them for substances only.
+void put_signals(const coupling::State& s, io::CheckpointData& d) {
+  if (s.substance.empty() && s.guidance.empty() && s.adhesion.empty() && s.signal.value.empty())
+    return;
+  std::vector<Vec3> force, heading;
+  std::vector<double> motility;
+  for (const coupling::Guidance& g : s.guidance) {
+    motility.push_back(g.motility);
+    force.push_back(g.force);
+    heading.push_back(g.heading);
+  }
+  d.put("substances/guidance_motility", motility);
+  d.put("substances/guidance_force", flatten(force));
+  d.put("substances/guidance_heading", flatten(heading));
+  d.put("rules/adhesion", s.adhesion);
+  d.put_count("rules/count", std::ssize(s.signal.value));
+  d.put_count("rules/interval", s.signal.interval);
+  for (std::size_t k = 0; k < s.signal.value.size(); ++k)
+    d.put(fmt::format("rules/{}", k), s.signal.value[k]);
+}
+
+void get_signals(const io::CheckpointData& d, coupling::State& s) {
+  s.guidance.clear();
+  s.adhesion.clear();
+  s.signal = {};
+  const std::size_t n_cell = s.dcm.n_lane() + s.cbm.n_cell();
+  const auto check_none_or_all = [&](const std::string& name, std::size_t found) {
+    check_same(d, name, found == 0 ? n_cell : found, n_cell);
+  };
+  if (d.contains("substances/guidance_force")) {
+    const std::vector<Vec3> force = unflatten_points(d.numbers("substances/guidance_force")),
+                            heading = unflatten_points(d.numbers("substances/guidance_heading"));
+    const std::vector<double>& motility = d.numbers("substances/guidance_motility");
+    check_none_or_all("substances/guidance_force", force.size());
+    check_same(d, "substances/guidance_motility", motility.size(), force.size());
+    check_same(d, "substances/guidance_heading", heading.size(), force.size());
+    for (std::size_t k = 0; k < force.size(); ++k)
+      s.guidance.push_back({motility[k], force[k], heading[k]});
+  }
+  if (!d.contains("rules/count")) return;  // files of 0.1.0 have none
+  s.adhesion = d.numbers("rules/adhesion");
+  check_none_or_all("rules/adhesion", s.adhesion.size());
+  s.signal.interval = d.count("rules/interval");
+  for (std::int64_t k = 0; k < d.count("rules/count"); ++k) {
+    const std::string name = fmt::format("rules/{}", k);
+    s.signal.value.push_back(d.numbers(name));
+    check_none_or_all(name, s.signal.value.back().size());
+  }
+}
+
 }  // namespace
 
 void put_substances(const coupling::State& s, io::CheckpointData& d) {
+  put_signals(s, d);
   if (s.substance.empty()) return;
   d.put_count("substances/count", std::ssize(s.substance));
   for (std::size_t k = 0; k < s.substance.size(); ++k) {
@@ -72,21 +124,11 @@ void put_substances(const coupling::State& s, io::CheckpointData& d) {
     d.put(name + "amounts",
           std::vector{field.secreted, field.entered, field.supplied, field.decayed});
   }
-  std::vector<Vec3> force, heading;
-  std::vector<double> motility;
-  for (const coupling::Guidance& g : s.guidance) {
-    motility.push_back(g.motility);
-    force.push_back(g.force);
-    heading.push_back(g.heading);
-  }
-  d.put("substances/guidance_motility", motility);
-  d.put("substances/guidance_force", flatten(force));
-  d.put("substances/guidance_heading", flatten(heading));
 }
 
 void get_substances(const io::CheckpointData& d, coupling::State& s) {
   s.substance.clear();
-  s.guidance.clear();
+  get_signals(d, s);
   if (!d.contains("substances/count")) return;
   const std::int64_t n = d.count("substances/count");
   for (std::int64_t k = 0; k < n; ++k) {
@@ -98,22 +140,15 @@ void get_substances(const io::CheckpointData& d, coupling::State& s) {
          d.contains(name + "open") ? d.numbers(name + "open") : std::vector<double>{},
          get_insides(d, name + "inside_"), amounts[0], amounts[1], amounts[2], amounts[3]});
   }
-  const std::vector<Vec3> force = unflatten_points(d.numbers("substances/guidance_force")),
-                          heading = unflatten_points(d.numbers("substances/guidance_heading"));
-  const std::vector<double>& motility = d.numbers("substances/guidance_motility");
-  const std::size_t n_cell = s.dcm.n_lane() + s.cbm.n_cell();
-  check_same(d, "substances/guidance_force", force.empty() ? n_cell : force.size(), n_cell);
-  check_same(d, "substances/guidance_motility", motility.size(), force.size());
-  check_same(d, "substances/guidance_heading", heading.size(), force.size());
-  for (std::size_t k = 0; k < force.size(); ++k)
-    s.guidance.push_back({motility[k], force[k], heading[k]});
 }
 
-void check_substances(const coupling::SubstanceParams& p, const coupling::State& s,
+void check_substances(const coupling::Params& params, const coupling::State& s,
                       const std::string& source) {
+  const coupling::SubstanceParams& p = params.substances;
   const auto need = [&](bool fine) {
     check(fine,
-          fmt::format("{}: the fields of substances cannot be. The file is damaged or belongs to "
+          fmt::format("{}: the fields of substances or the signals of rules cannot be. The file is "
+                      "damaged or belongs to "
                       "another scene; resume from the previous checkpoint or start anew.",
                       source),
           Exit::kFileError);
@@ -131,6 +166,13 @@ void check_substances(const coupling::SubstanceParams& p, const coupling::State&
   }
   for (const coupling::Guidance& g : s.guidance)
     need(std::isfinite(g.motility) && g.force.allFinite() && g.heading.allFinite());
+  need(std::ranges::all_of(s.adhesion, [](double f) { return f >= 0 && f <= 1; }));
+  const std::vector<coupling::SignalRule>& rules = params.rules.rule;
+  const std::size_t n_cell = s.dcm.n_lane() + s.cbm.n_cell();
+  need(s.signal.value.empty() || s.signal.value.size() == rules.size());
+  for (std::size_t k = 0; k < s.signal.value.size(); ++k)
+    need(s.signal.value[k].size() == (coupling::is_measured(rules[k].signal) ? n_cell : 0) &&
+         std::ranges::all_of(s.signal.value[k], [](double v) { return std::isfinite(v); }));
 }
 
 io::FieldFrame make_field_frame(const coupling::World& world, double time) {

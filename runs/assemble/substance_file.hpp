@@ -1,5 +1,5 @@
 #pragma once
-/// Fields of substances in checkpoints and in the files of a run.
+/// Fields of substances and signals of rules in checkpoints and in the files of a run.
 
 #include "coupling/world/world.hpp"
 #include "io/checkpoint.hpp"
@@ -7,15 +7,17 @@
 
 namespace acinus::runs {
 
-/// Writes fields, amounts and guidance; nothing without substances.
+/// Writes fields and amounts, motion and adhesion that rules change, and measured signals; nothing
+/// without substances and rules.
 void put_substances(const coupling::State& state, io::CheckpointData& data);
 
 /// Reads them back.
 void get_substances(const io::CheckpointData& data, coupling::State& state);
 
-/// Refuses fields that are not those of the scene's substances and grid.
+/// Refuses fields that are not those of the scene's substances and grid, and signals that are not
+/// those of its rules.
 /// @throws Error(kFileError)
-void check_substances(const coupling::SubstanceParams& params, const coupling::State& state,
+void check_substances(const coupling::Params& params, const coupling::State& state,
                       const std::string& source);
 
 /// Fields at a time, for the files of a run.

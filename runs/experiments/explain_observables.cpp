@@ -47,7 +47,8 @@ std::vector<ObservableSection> make_sections() {
   std::vector<ObservableSection> sections{
       {"", "every scene", common},
       {"", "each wall, capsule and static mesh, by its name", wall_observables("NAME")},
-      {"", "each substance, by its name", substance_observables("NAME", "its own")}};
+      {"", "each substance, by its name", substance_observables("NAME", "its own")},
+      {"", "each rule, by its number in the scene", without_numbers(rule_observables(0))}};
   const std::vector<std::string> names = split_choices(kChoices<Experiment>);
   for (std::size_t k = 0; k < names.size(); ++k) {
     const auto experiment = static_cast<Experiment>(k);

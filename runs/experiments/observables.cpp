@@ -93,6 +93,19 @@ std::vector<Observable> substance_observables(const std::string& substance,
           {name + "_exchange", amount, "secretion minus uptake of all cells"}};
 }
 
+std::vector<Observable> rule_observables(std::size_t rule) {
+  const std::string name = fmt::format("rule_{}", rule);
+  return {
+      {name + "_response", "1",
+       fmt::format("mean response to rule {} of the cells that it is for; a mean over no cells "
+                   "is 0",
+                   rule)},
+      {name + "_cells", "1",
+       fmt::format("cells on which rule {} acts: it halves their behaviour or more, or for death "
+                   "and chemotaxis its response is above one half",
+                   rule)}};
+}
+
 std::vector<Observable> wall_observables(const std::string& wall) {
   const std::string name = "wall_" + name_in_columns(wall);
   List list{{name + "_force_nN", "nN",

@@ -1,6 +1,7 @@
 #pragma once
 /// Measured series of every written frame by name: the columns of /observables in the run file.
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ std::string name_in_columns(std::string name);
 
 /// Observables of a substance of this name, with its unit of concentration.
 std::vector<Observable> substance_observables(const std::string& name, const std::string& unit);
+
+/// Observables of the rule of this number in the scene.
+std::vector<Observable> rule_observables(std::size_t rule);
 
 /// Observables of a wall, capsule or closed mesh of this name.
 std::vector<Observable> wall_observables(const std::string& wall);

@@ -49,6 +49,10 @@ std::vector<io::SeriesValue> observe_frame(const ObservedFrame& frame, ObservedR
     const std::vector<Observable> of_substance = substance_observables(s.name, s.unit);
     columns.insert(columns.end(), of_substance.begin(), of_substance.end());
   }
+  for (std::size_t k = 0; k < frame.scene.rules.size(); ++k) {
+    const std::vector<Observable> of_rule = rule_observables(k);
+    columns.insert(columns.end(), of_rule.begin(), of_rule.end());
+  }
   for (const Observable& o : columns) row.push_back({o.name, o.unit, latest(m, before, o.name)});
   return row;
 }

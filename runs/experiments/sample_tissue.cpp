@@ -1,5 +1,7 @@
 #include "runs/experiments/sample_tissue.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +11,7 @@
 #include "coupling/life/cell_cycle.hpp"
 #include "coupling/life/density.hpp"
 #include "coupling/measure/contact_forces.hpp"
+#include "coupling/measure/signals.hpp"
 #include "coupling/substances/fields.hpp"
 #include "coupling/world/cell.hpp"
 #include "runs/experiments/observables.hpp"
@@ -153,6 +156,33 @@ void sample_substances(const coupling::World& world, Measures& m) {
   }
 }
 
+/// True if a rule halves the behaviour of a cell, or gives it at least half of a death or a force.
+bool acts_strongly(const coupling::SignalRule& r, double response) {
+  constexpr double kHalf = 0.5;
+  const bool adds =
+      r.behaviour == coupling::Behaviour::kDeath || r.behaviour == coupling::Behaviour::kChemotaxis;
+  return adds ? response > kHalf : response < kHalf;
+}
+
+void sample_rules(const ObservedFrame& frame, Measures& m) {
+  const coupling::State& s = frame.world.state;
+  const std::vector<coupling::SignalRule>& rules = frame.world.params.rules.rule;
+  const auto signal = coupling::present_signals(frame.world, frame.work, frame.snapshot.cells);
+  for (std::size_t k = 0; k < rules.size(); ++k) {
+    double sum = 0, n = 0, acting = 0;
+    coupling::for_each_cell(s, [&](const coupling::Cell& c) {
+      if (!coupling::acts_on(rules[k], rules[k].behaviour, coupling::type_of(s, c))) return;
+      const double response = coupling::signal_response(rules[k], signal[k][c.index]);
+      sum += response;
+      n += 1;
+      acting += acts_strongly(rules[k], response) ? 1 : 0;
+    });
+    const std::string name = fmt::format("rule_{}", k);
+    m[name + "_response"].push_back(n > 0 ? sum / n : std::numeric_limits<double>::quiet_NaN());
+    m[name + "_cells"].push_back(acting);
+  }
+}
+
 }  // namespace
 
 void sample_tissue(const ObservedFrame& frame, Measures& m) {
@@ -165,6 +195,7 @@ void sample_tissue(const ObservedFrame& frame, Measures& m) {
   sample_interface(frame, m);
   sample_reactions(frame, m);
   sample_substances(frame.world, m);
+  if (!frame.scene.rules.empty()) sample_rules(frame, m);
 }
 
 std::vector<std::string> wall_names(const contact::Boundary& boundary) {

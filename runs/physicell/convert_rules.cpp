@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/spelling.hpp"
 #include "io/disk.hpp"
+#include "runs/physicell/counterparts.hpp"
 #include "runs/scene/key_reader.hpp"
 
 namespace acinus::runs {
@@ -19,73 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using OrderedJson = nlohmann::ordered_json;
-
-/// Signal or behaviour of PhysiCell without counterpart: its name or the start of it, and what
-/// there is instead.
-struct NoCounterpart {
-  const char* name;
-  const char* instead;
-};
-constexpr NoCounterpart kSignals[] = {
-    {"pressure", "growth slows with pressure by cell_types.<name>.inhibition, in Pa"},
-    {"volume", "growth slows with volume by cell_types.<name>.inhibition"},
-    {"damage", "cells have no damage"},
-    {"damage delivered", "cells have no damage"},
-    {"total damage delivered", "cells have no damage"},
-    {"attacking", "cells do not attack"},
-    {"is attacking", "cells do not attack"},
-    {"total attack time", "cells do not attack"},
-    {"dead", "dead cells follow cell_types.<name>.death"},
-    {"is dead", "dead cells follow cell_types.<name>.death"},
-    {"apoptotic", "dead cells follow cell_types.<name>.death"},
-    {"is_apoptotic", "dead cells follow cell_types.<name>.death"},
-    {"necrotic", "dead cells follow cell_types.<name>.death"},
-    {"is_necrotic", "dead cells follow cell_types.<name>.death"},
-    {"time", "a course over time belongs to a substance or to the proliferation of a type"},
-    {"current time", "a course over time belongs to a substance"},
-    {"global time", "a course over time belongs to a substance"}};
-constexpr NoCounterpart kSignalStarts[] = {{"contact with ", "a signal here is a substance"},
-                                           {"intracellular ", "there is no chemistry inside cells"},
-                                           {"custom:", "there are no custom signals"},
-                                           {"custom ", "there are no custom signals"}};
-constexpr NoCounterpart kBehaviours[] = {
-    {"chemotactic", "rules.behaviour = chemotaxis takes a force in nN, which the table has not"},
-    {"migration bias", "rules.behaviour = chemotaxis takes a force in nN"},
-    {"migration persistence", "random motion is that of cell.diffusion, without persistence"},
-    {"exit from cycle phase", "the cycle has one phase"},
-    {"transform", "cell types are fixed"},
-    {"transition", "cell types are fixed"},
-    {"phagocytos", "cells do not eat others"},
-    {"attack", "cells do not attack"},
-    {"damage", "cells have no damage"},
-    {"immunogenicity", "cells do not attack"},
-    {"fuse", "cells do not fuse"},
-    {"cell-", "adhesion and stiffness are constants of a type"},
-    {"adhesive affinity", "adhesion is a constant of a type"},
-    {"relative maximum adhesion", "adhesion is a constant of a type"},
-    {"cell attachment", "there are no springs between cells"},
-    {"cell detachment", "there are no springs between cells"},
-    {"maximum number of cell attachments", "there are no springs between cells"},
-    {"is_movable", "all cells move"},
-    {"is movable", "all cells move"},
-    {"movable", "all cells move"},
-    {"asymmetric division", "a daughter has the type of its mother"},
-    {"custom", "there are no custom behaviours"}};
-
-/// Signals that are not substances: those of the list, or names that begin with a kind of signal.
-const char* find_signal(const std::string& name) {
-  for (const NoCounterpart& n : kSignals)
-    if (name == n.name) return n.instead;
-  for (const NoCounterpart& n : kSignalStarts)
-    if (name.starts_with(n.name)) return n.instead;
-  return nullptr;
-}
-
-const char* find_behaviour(const std::string& name) {
-  for (const NoCounterpart& n : kBehaviours)
-    if (name.starts_with(n.name)) return n.instead;
-  return nullptr;
-}
 
 /// A name that a scene takes: other characters become _.
 std::string name_of(std::string text) {
@@ -101,23 +35,54 @@ std::string in_words(const PhysiCellRule& r) {
 
 std::string per_minute(double rate) { return fmt::format("{:.9g} 1/min", rate); }
 
+/// Signal of a rule as a scene has it.
+struct SceneSignal {
+  std::string name;
+  OrderedJson half_max;
+  std::string substance;       ///< as in the table; empty: none
+  std::string neighbour_type;  ///< as in the table; empty: all
+  std::string note;
+};
+
+constexpr const char* kContact = "contact with ";
+
+/// @param unit_pressure  kPa that PhysiCell's pressure 1 stands for; 0: unknown
+SceneSignal signal_of(const PhysiCellRule& r, double unit_pressure) {
+  if (r.signal == "pressure")
+    return {"pressure", fmt::format("{:.6g} Pa", 1e3 * unit_pressure * r.half_max), "", "", ""};
+  if (r.signal == "volume") return {"volume", fmt::format("{:.6g} um^3", r.half_max), "", "", ""};
+  if (r.signal.starts_with(kContact)) {
+    const std::string whom = r.signal.substr(std::string(kContact).size());
+    const bool all = whom == "live cell" || whom == "live cells";
+    return {"neighbours", r.half_max, "", all ? "" : whom,
+            "; PhysiCell counts cells within reach of adhesion, here those that touch count"};
+  }
+  return {name_of(r.signal), r.half_max, r.signal, "", ""};
+}
+
 /// Scene under construction.
 struct Draft {
+  double unit_pressure = 0;
   OrderedJson types = OrderedJson::object(), rules = OrderedJson::array();
   std::vector<std::string> substances;            ///< as in the table, in order of use
   std::map<std::string, std::vector<int>> lines;  ///< converted, by cell type and behaviour
 
   void add_rule(const PhysiCellRule& r, const char* behaviour, double rate = 0,
                 const std::string& exchanged = "") {
-    OrderedJson rule = {{"signal", name_of(r.signal)}, {"behaviour", behaviour}};
+    const SceneSignal signal = signal_of(r, unit_pressure);
+    OrderedJson rule = {{"signal", signal.name}, {"behaviour", behaviour}};
+    if (!signal.neighbour_type.empty()) {
+      rule["neighbour_type"] = name_of(signal.neighbour_type);
+      types[name_of(signal.neighbour_type)];
+    }
     if (!exchanged.empty()) rule["of"] = name_of(exchanged);
     if (r.decreases) rule["direction"] = "decreases";
     rule["cell_type"] = name_of(r.cell_type);
-    rule["half_max"] = r.half_max;
+    rule["half_max"] = signal.half_max;
     rule["power"] = r.power;
     if (rate > 0) rule["rate"] = per_minute(rate);
     rules.push_back(rule);
-    use(r.signal);
+    if (!signal.substance.empty()) use(signal.substance);
     if (!exchanged.empty()) use(exchanged);
   }
   void use(const std::string& substance) {
@@ -202,6 +167,13 @@ RuleOutcome convert_speed(const PhysiCellRule& r, std::optional<double> base, Dr
                             name_of(r.cell_type), assumed_base(r, base))};
 }
 
+RuleOutcome convert_adhesion(const PhysiCellRule& r, std::optional<double> base, Draft& draft) {
+  if (const auto refused = refuse_range(r, base)) return *refused;
+  draft.add_rule(r, "adhesion");
+  return {true, fmt::format("adhesion; cell_types.{}.adhesion is that at full response{}",
+                            name_of(r.cell_type), assumed_base(r, base))};
+}
+
 /// Rates of exchange: "VEGF secretion", "oxygen uptake".
 RuleOutcome convert_exchange(const PhysiCellRule& r, std::optional<double> base, bool secretes,
                              Draft& draft) {
@@ -221,21 +193,27 @@ RuleOutcome convert_exchange(const PhysiCellRule& r, std::optional<double> base,
 RuleOutcome convert(const PhysiCellRule& r, std::optional<double> base, Draft& draft) {
   if (r.signal.ends_with(" gradient"))
     return left("signal: rules.behaviour = chemotaxis follows gradients");
-  if (const char* instead = find_signal(r.signal)) return left(fmt::format("signal: {}", instead));
+  if (const char* instead = missing_signal(r.signal))
+    return left(fmt::format("signal: {}", instead));
+  if (r.signal == "pressure" && !(draft.unit_pressure > 0))
+    return left(
+        "signal: PhysiCell's pressure has no unit, here it is in Pa: give what its 1 stands for, "
+        "as --pressure \"100 Pa\"");
   if (r.behaviour == "cycle entry" || r.behaviour == "exit from cycle phase 0")
     return convert_growth(r, base, draft);
   if (r.behaviour == "apoptosis" || r.behaviour == "necrosis") return convert_death(r, base, draft);
+  if (r.behaviour == "cell-cell adhesion") return convert_adhesion(r, base, draft);
   if (r.behaviour == "migration speed") return convert_speed(r, base, draft);
   if (r.behaviour.ends_with(" secretion")) return convert_exchange(r, base, true, draft);
   if (r.behaviour.ends_with(" uptake")) return convert_exchange(r, base, false, draft);
   for (const char* ending : {" export", " secretion target", " secretion saturation density"})
     if (r.behaviour.ends_with(ending))
       return left("behaviour: only secretion and uptake of cell_types.<name>.exchange respond");
-  if (const char* instead = find_behaviour(r.behaviour))
+  if (const char* instead = missing_behaviour(r.behaviour))
     return left(fmt::format("behaviour: {}", instead));
   return left(
-      "behaviour: unknown. Known: cycle entry, apoptosis, necrosis, migration speed, "
-      "<substance> secretion, <substance> uptake");
+      "behaviour: unknown. Known: cycle entry, apoptosis, necrosis, migration speed, cell-cell "
+      "adhesion, <substance> secretion, <substance> uptake");
 }
 
 std::optional<double> base_of(const PhysiCellRule& r, const BaseValues& base) {
@@ -314,10 +292,11 @@ void check_base_names(const std::vector<PhysiCellRule>& rules, const BaseValues&
 
 ConvertedRules convert_physicell_rules(const std::vector<PhysiCellRule>& rules,
                                        const BaseValues& base, const std::string& name,
-                                       const std::string& source) {
+                                       const std::string& source, double unit_pressure) {
   check_base_names(rules, base);
   ConvertedRules result;
   Draft draft;
+  draft.unit_pressure = unit_pressure;
   std::map<std::string, std::string> names;
   for (const PhysiCellRule& r : rules) {
     const auto [known, fresh] = names.emplace(name_of(r.cell_type), r.cell_type);
@@ -329,7 +308,8 @@ ConvertedRules convert_physicell_rules(const std::vector<PhysiCellRule>& rules,
     if (outcome.converted) draft.lines[r.cell_type + "/" + r.behaviour].push_back(r.line);
     result.remark.push_back(
         {r.line, outcome.converted,
-         fmt::format("{}: {}{}", in_words(r), outcome.text,
+         fmt::format("{}: {}{}{}", in_words(r), outcome.text,
+                     outcome.converted ? signal_of(r, unit_pressure).note : "",
                      outcome.converted && r.dead ? "; dead cells do not respond here" : "")});
     result.n_converted += outcome.converted ? 1 : 0;
   }
@@ -359,11 +339,11 @@ BaseValues parse_base_values(const std::vector<std::string>& texts) {
 }
 
 ConvertedRules write_physicell_scene(const std::string& table, const std::string& folder,
-                                     const BaseValues& base) {
+                                     const BaseValues& base, double unit_pressure) {
   const fs::path source(table);
   const std::vector<PhysiCellRule> rules = parse_physicell_rules(io::read_text_file(table), table);
-  ConvertedRules result =
-      convert_physicell_rules(rules, base, source.stem().string(), source.filename().string());
+  ConvertedRules result = convert_physicell_rules(rules, base, source.stem().string(),
+                                                  source.filename().string(), unit_pressure);
   const fs::path file = fs::path(folder) / (name_of(source.stem().string()) + ".json");
   check(!fs::exists(file), file.string() + ": exists already. Give another folder.",
         Exit::kFileError);

@@ -25,13 +25,15 @@ struct ConvertedRules {
 /// Base values by "BEHAVIOUR" or "CELL TYPE:BEHAVIOUR", for tables without them.
 using BaseValues = std::map<std::string, double>;
 
-/// Converts what acinus has: substances that act on cycle entry, apoptosis, necrosis and migration
-/// speed.
-/// @param name    of the scene
-/// @param source  name of the table, for its description
+/// Converts what acinus has: substances, pressure, volume and contacts that act on cycle entry,
+/// apoptosis, necrosis, migration speed, adhesion, secretion and uptake.
+/// @param name           of the scene
+/// @param source         name of the table, for its description
+/// @param unit_pressure  kPa that PhysiCell's pressure 1 stands for, which has no unit; 0: unknown,
+///                       rules of pressure are left out
 ConvertedRules convert_physicell_rules(const std::vector<PhysiCellRule>& rules,
                                        const BaseValues& base, const std::string& name,
-                                       const std::string& source);
+                                       const std::string& source, double unit_pressure = 0);
 
 /// Base values from "NAME=VALUE".   @throws Error
 BaseValues parse_base_values(const std::vector<std::string>& texts);
@@ -41,6 +43,6 @@ BaseValues parse_base_values(const std::vector<std::string>& texts);
 /// @throws Error: a bad table, a base value that names nothing in it, a file that exists already
 ///         (kFileError)
 ConvertedRules write_physicell_scene(const std::string& table, const std::string& folder,
-                                     const BaseValues& base);
+                                     const BaseValues& base, double unit_pressure = 0);
 
 }  // namespace acinus::runs

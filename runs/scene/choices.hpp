@@ -72,7 +72,10 @@ template <>
 inline constexpr const char* kChoices<BoxFace> = "x_low|x_high|y_low|y_high|z_low|z_high";
 template <>
 inline constexpr const char* kChoices<coupling::Behaviour> =
-    "growth|death|motility|chemotaxis|secretion|uptake";
+    "growth|death|motility|chemotaxis|secretion|uptake|adhesion";
+template <>
+inline constexpr const char* kChoices<coupling::Signal> =
+    "concentration|pressure|volume|contact_area|neighbours|layer|age";
 template <>
 inline constexpr const char* kChoices<coupling::Lattice> = "fcc|bcc";
 

@@ -19,7 +19,11 @@ namespace {
 class EntryCollector final : public Visitor {
  public:
   void real(const Key& key, double& value) override {
-    add(key, key.unit[0] ? "quantity" : "number", in_quotes(key, value), bounds(key));
+    add(key,
+        key.any_unit  ? "number or quantity"
+        : key.unit[0] ? "quantity"
+                      : "number",
+        in_quotes(key, value), bounds(key));
   }
   void optional_real(const Key& key, std::optional<double>&) override {
     add(key, key.unit[0] ? "quantity" : "number", "\"auto\"", bounds(key));

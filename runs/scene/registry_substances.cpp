@@ -220,42 +220,106 @@ void describe_exchange(Visitor& v, ExchangeEntry& b) {
          b.uptake_per_area);
 }
 
+namespace {
+
+using coupling::Signal, coupling::Behaviour;
+
+constexpr Dimension kArea{2, 0, 0}, kVolume{3, 0, 0};
+
+/// Key of the half-maximum, in the unit of the signal.
+Key half_max_of(Signal signal) {
+  Key key{.name = "half_max",
+          .meaning =
+              "signal of half the response: a concentration, or for pressure \"200 Pa\", "
+              "volume \"9000 um^3\", contact_area \"600 um^2\", age \"5 h\", neighbours 6, "
+              "layer 2",
+          .any_unit = true,
+          .range = kPositive,
+          .required = true};
+  const auto set = [&key](Dimension dimension, const char* unit) {
+    key.dimension = dimension;
+    key.unit = unit;
+  };
+  switch (signal) {
+    case Signal::kPressure:
+      set(kStress, "Pa");
+      break;
+    case Signal::kVolume:
+      set(kVolume, "um^3");
+      break;
+    case Signal::kContactArea:
+      set(kArea, "um^2");
+      break;
+    case Signal::kAge:
+      set(kTime, "h");
+      break;
+    case Signal::kConcentration:
+    case Signal::kNeighbours:
+    case Signal::kLayer:
+      break;
+  }
+  return key;
+}
+
+void describe_signal(Visitor& v, SignalRuleEntry& b) {
+  v.text(
+      {.name = "signal",
+       .meaning =
+           "what cells respond to: the name of a substance, or of a quantity of the cell itself. "
+           "pressure: contact pressure, as in /cells; volume: present one of the mesh, of a sphere "
+           "that of its radius; contact_area: area of its surface in contact with other living "
+           "cells; neighbours: number of living cells that it touches; layer: layer of cells "
+           "behind the edge of a lesion around axis_point, 1 at the edge, from distances of one "
+           "diameter; age: time since its birth, of initial cells since t = 0. All but "
+           "concentration and age are those of the last check (life.grid)",
+       .required = true},
+      b.name);
+  const int own = choice_index(kChoices<Signal>, b.name);
+  b.signal = own > 0 ? static_cast<Signal>(own) : Signal::kConcentration;
+  v.when(b.signal == Signal::kNeighbours || b.signal == Signal::kContactArea,
+         "signal = neighbours, contact_area", [&b](Visitor& w) {
+           w.text({.name = "neighbour_type",
+                   .meaning = "cell type of the other cells that count; \"\" = all"},
+                  b.other);
+         });
+}
+
+}  // namespace
+
 void describe_signal_rule(Visitor& v, SignalRuleEntry& b) {
-  v.text({.name = "signal", .meaning = "name of the substance", .required = true}, b.substance);
+  describe_signal(v, b);
   choice(
       v,
       {.name = "behaviour",
        .meaning = "what responds. growth: factor on the rate of growth, 0 = rest; death: rate at "
                   "which cells die as cell.death says; motility: factor on cell.diffusion; "
                   "chemotaxis: force along the gradient; secretion, uptake: factor on these rates "
-                  "of cell.exchange with a substance",
+                  "of cell.exchange with a substance; adhesion: factor on the adhesion energy with "
+                  "other cells, of a pair the geometric mean of both",
        .required = true},
       b.behaviour);
   choice(v,
          {.name = "direction",
-          .meaning = "increases: the response is c^power / (half_max^power + c^power), at the "
-                     "concentration c at the cell; decreases: 1 minus it",
+          .meaning =
+              "increases: the response to the signal s is s^power / (half_max^power + s^power); "
+              "decreases: 1 minus it; a negative signal counts as 0",
           .choices = "increases|decreases"},
          b.decreases);
   v.text({.name = "cell_type", .meaning = "cell type that responds; \"\" = all"}, b.cell_type);
-  v.real({.name = "half_max",
-          .meaning = "concentration of half the response",
-          .range = kPositive,
-          .required = true},
-         b.half_max);
+  v.real(half_max_of(b.signal), b.half_max);
   v.real({.name = "power",
           .meaning = "steepness of the response; a large one makes half_max a threshold",
           .range = {.low = 0, .high = 1000, .low_open = true}},
          b.power);
-  v.when(
-      b.behaviour == coupling::Behaviour::kSecretion || b.behaviour == coupling::Behaviour::kUptake,
-      "behaviour = secretion or uptake", [&b](Visitor& w) {
-        w.text({.name = "of",
-                .meaning = "name of the substance that is secreted or taken up",
-                .required = true},
-               b.exchanged);
-      });
-  v.when(b.behaviour == coupling::Behaviour::kDeath, "behaviour = death", [&b](Visitor& w) {
+  const bool exchanges = b.behaviour == Behaviour::kSecretion || b.behaviour == Behaviour::kUptake;
+  v.when(exchanges || b.behaviour == Behaviour::kChemotaxis,
+         "behaviour = secretion, uptake or chemotaxis", [&b](Visitor& w) {
+           w.text({.name = "of",
+                   .meaning = "name of the substance that is secreted or taken up, or whose "
+                              "gradient leads; \"\" = the signal, for chemotaxis only"},
+                  b.exchanged);
+         });
+  v.when(b.behaviour == Behaviour::kDeath, "behaviour = death", [&b](Visitor& w) {
     w.real({.name = "rate",
             .meaning = "rate of death at full response",
             .dimension = kRate,
@@ -264,20 +328,19 @@ void describe_signal_rule(Visitor& v, SignalRuleEntry& b) {
             .required = true},
            b.rate);
   });
-  v.when(b.behaviour == coupling::Behaviour::kChemotaxis, "behaviour = chemotaxis",
-         [&b](Visitor& w) {
-           w.real({.name = "force",
-                   .meaning = "force up the gradient at full response; negative: down",
-                   .dimension = kForce,
-                   .unit = "nN",
-                   .required = true},
-                  b.force);
-           w.real({.name = "sensitivity",
-                   .meaning = "relative difference of concentration across the cell at which the "
-                              "force is half of its largest",
-                   .range = kPositive},
-                  b.sensitivity);
-         });
+  v.when(b.behaviour == Behaviour::kChemotaxis, "behaviour = chemotaxis", [&b](Visitor& w) {
+    w.real({.name = "force",
+            .meaning = "force up the gradient at full response; negative: down",
+            .dimension = kForce,
+            .unit = "nN",
+            .required = true},
+           b.force);
+    w.real({.name = "sensitivity",
+            .meaning = "relative difference of concentration across the cell at which the "
+                       "force is half of its largest",
+            .range = kPositive},
+           b.sensitivity);
+  });
 }
 
 }  // namespace acinus::runs

@@ -19,6 +19,13 @@ std::vector<std::string> substance_names(const Scene& scene) {
   return names;
 }
 
+/// Signals of the cell itself.
+std::vector<std::string> own_signals() {
+  std::vector<std::string> names = split_choices(kChoices<coupling::Signal>);
+  names.erase(names.begin());  // a concentration goes by the name of its substance
+  return names;
+}
+
 void check_substance_name(const Scene& scene, const std::string& name, const std::string& pointer,
                           Report& report) {
   const std::vector<std::string> names = substance_names(scene);
@@ -41,6 +48,10 @@ void check_substance(const Scene& scene, std::size_t k, Report& report) {
     if (scene.substances[other].name == s.name)
       report.add_relation({pointer + "/name"}, "\"" + s.name + "\"",
                           "another substance has this name");
+  const std::vector<std::string> own = own_signals();
+  if (std::ranges::find(own, s.name) != own.end())
+    report.add_relation({pointer + "/name"}, "\"" + s.name + "\"",
+                        "is a signal of cells in rules. Take another name");
   std::set<BoxFace> sides;
   for (std::size_t f = 0; f < s.faces.size(); ++f)
     if (!sides.insert(s.faces[f].side).second)
@@ -89,22 +100,51 @@ void check_exchanged(const Scene& scene, const SignalRuleEntry& r, const std::st
                   secretes ? "secretion" : "uptake"));
 }
 
+void check_cell_type(const Scene& scene, const std::string& type, const std::string& pointer,
+                     Report& report) {
+  if (type.empty() || scene.cell_types.contains(type)) return;
+  std::vector<std::string> names;
+  for (const auto& [name, block] : scene.cell_types) names.push_back(name);
+  report.add_relation(
+      {pointer, "/cell_types"}, "\"" + type + "\"",
+      "unknown cell type. " + did_you_mean(nearest_name(type, names),
+                                           fmt::format("Known: {}", fmt::join(names, ", "))));
+}
+
+/// Requires a signal that is a substance or a quantity of the cell.
+void check_signal(const Scene& scene, const SignalRuleEntry& r, const std::string& pointer,
+                  Report& report) {
+  std::vector<std::string> names = substance_names(scene);
+  if (r.signal != coupling::Signal::kConcentration ||
+      std::ranges::find(names, r.name) != names.end())
+    return;
+  for (const std::string& own : own_signals()) names.push_back(own);
+  report.add_relation({pointer, "/substances"}, "\"" + r.name + "\"",
+                      "is neither a substance of the scene nor a signal of the cell. " +
+                          did_you_mean(nearest_name(r.name, names),
+                                       fmt::format("Known: {}", fmt::join(names, ", "))));
+}
+
 void check_signal_rules(const Scene& scene, Report& report) {
+  const std::vector<std::string> known = substance_names(scene);
   for (std::size_t k = 0; k < scene.rules.size(); ++k) {
     const SignalRuleEntry& r = scene.rules[k];
     const std::string pointer = fmt::format("/rules/{}", k);
-    check_substance_name(scene, r.substance, pointer + "/signal", report);
+    check_signal(scene, r, pointer + "/signal", report);
     check_substance_name(scene, r.exchanged, pointer + "/of", report);
-    const std::vector<std::string> known = substance_names(scene);
-    if (std::ranges::find(known, r.exchanged) != known.end())
+    const bool exchanges = r.behaviour == coupling::Behaviour::kSecretion ||
+                           r.behaviour == coupling::Behaviour::kUptake;
+    const bool leads = r.behaviour == coupling::Behaviour::kChemotaxis;
+    if (r.exchanged.empty() &&
+        (exchanges || (leads && r.signal != coupling::Signal::kConcentration)))
+      report.add_relation({pointer + "/of"}, "\"\"",
+                          exchanges ? "must name the substance that is secreted or taken up"
+                                    : "must name the substance whose gradient cells follow: \"" +
+                                          r.name + "\" has none");
+    if (exchanges && std::ranges::find(known, r.exchanged) != known.end())
       check_exchanged(scene, r, pointer, report);
-    if (r.cell_type.empty() || scene.cell_types.contains(r.cell_type)) continue;
-    std::vector<std::string> names;
-    for (const auto& [name, type] : scene.cell_types) names.push_back(name);
-    report.add_relation(
-        {pointer + "/cell_type", "/cell_types"}, "\"" + r.cell_type + "\"",
-        "unknown cell type. " + did_you_mean(nearest_name(r.cell_type, names),
-                                             fmt::format("Known: {}", fmt::join(names, ", "))));
+    check_cell_type(scene, r.cell_type, pointer + "/cell_type", report);
+    check_cell_type(scene, r.other, pointer + "/neighbour_type", report);
   }
 }
 

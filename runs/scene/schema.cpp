@@ -143,6 +143,7 @@ class SchemaBuilder final : public Visitor {
           {"$comment", dimension_formula(key.dimension)}};
     }
     OrderedJson schema{{"type", "number"}};
+    if (key.any_unit) schema["type"] = OrderedJson::array({"number", "string"});
     add_bounds(key, schema);
     return schema;
   }

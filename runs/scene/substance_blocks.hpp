@@ -1,5 +1,5 @@
 #pragma once
-/// Scene blocks of substances: fields, exchange with cells, responses of cells.
+/// Scene blocks of substances: fields, exchange with cells; rules of cells.
 
 #include <array>
 #include <optional>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "coupling/world/region.hpp"
+#include "coupling/world/signal.hpp"
 #include "coupling/world/substance.hpp"
 
 namespace acinus::runs {
@@ -65,10 +66,11 @@ struct ExchangeEntry : coupling::CellExchange {
   std::string substance;
 };
 
-/// Response of cells to a substance.
+/// Response of cells to a signal.
 struct SignalRuleEntry : coupling::SignalRule {
-  std::string substance;  ///< key "signal"
+  std::string name;       ///< key "signal": a substance, or a signal of the cell itself
   std::string cell_type;  ///< empty: all
+  std::string other;      ///< key "neighbour_type"; empty: all
   std::string exchanged;  ///< key "of"
 };
 

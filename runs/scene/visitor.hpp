@@ -53,6 +53,7 @@ struct Key {
   const char* meaning = "";
   Dimension dimension{};  ///< of a real number or vector
   const char* unit = "";  ///< preferred unit; "" = plain number
+  bool any_unit = false;  ///< another key decides the dimension: a number or a quantity
   Range range{};
   const char* choices = "";  ///< "dcm|cbm|zoom"; "" = any
   const char* symbol = "";   ///< in the paper

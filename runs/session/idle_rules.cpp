@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "runs/assemble/build_rules.hpp"
 #include "runs/scene/choices.hpp"
 
 namespace acinus::runs {
@@ -61,6 +62,10 @@ std::vector<std::string> list_idle_rules(const Scene& scene, const Measures& mea
     list.push_back(die ? fmt::format("life.rules.{} never acted: no cell died", k)
                        : fmt::format("life.rules.{} never acted: no cell rested in any frame", k));
   }
+  for (std::size_t k = 0; k < scene.rules.size(); ++k)
+    if (largest(measures, fmt::format("rule_{}_cells", k)) == 0)
+      list.push_back(fmt::format("rules.{} acted on no cell in any frame by half or more: {}", k,
+                                 describe_rule(scene.rules[k])));
   return list;
 }
 

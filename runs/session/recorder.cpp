@@ -72,7 +72,7 @@ Notes Recorder::resume() {
   coupling::World& world = simulation_.world();
   get_state(data, types_of(world.params), world.state);
   coupling::place_vessels(world.params.tree, world.state.tree, world.params.boundary.vessels);
-  check_substances(world.params.substances, world.state, data.source());
+  check_substances(world.params, world.state, data.source());
   simulation_.resize();
   get_totals(data, totals_);
   get_totals(data, life_);

@@ -191,6 +191,7 @@ class Planner {
     add(known_observables(scene.experiment));
     for (const std::string& name : boundary_names(scene)) add(wall_observables(name));
     for (const SubstanceBlock& s : scene.substances) add(substance_observables(s.name, s.unit));
+    for (std::size_t k = 0; k < scene.rules.size(); ++k) add(rule_observables(k));
   }
 
   /// Links every run to the run it starts from, and checks that their scenes allow it.

@@ -35,5 +35,15 @@ TEST(LesionLayers, AreCountedFromTheAxis) {
             (std::vector<int>{1, 2}));
 }
 
+TEST(LesionLayers, OfAllCellsAreThoseOfEach) {
+  std::vector<LayerCell> cells;
+  for (int k = 0; k < 300; ++k)
+    cells.push_back({Vec3(40 + 97 * k % 211, 31 * k % 173 - 80, 53 * k % 67), 8.0 + k % 5});
+  const Vec3 axis(20, 10, 0);
+  const std::vector<int> all = compute_layers(cells, axis);
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    EXPECT_EQ(all[k], local_layer_of(cells[k], cells, axis)) << k;
+}
+
 }  // namespace
 }  // namespace acinus::coupling

@@ -71,7 +71,7 @@ TEST(Substances, GrowthFollowsTheSignal) {
   SignalRule r;
   r.half_max = 5;
   r.power = 2;
-  w.params.substances.rule = {r};
+  w.params.rules.rule = {r};
   begin_life(w);
   EXPECT_EQ(time_to_event(w), 600) << "the grid of life is kept";
   look(w, 600);
@@ -94,7 +94,7 @@ TEST(Substances, CellsDieAtTheRateOfTheSignal) {
   r.behaviour = Behaviour::kDeath;
   r.half_max = 4;
   r.rate = 2.0 / 3600;
-  w.params.substances.rule = {r};
+  w.params.rules.rule = {r};
   ASSERT_TRUE(has_life(w.params));
   begin_life(w);
   for (int k = 1; k <= 6; ++k) look(w, 600.0 * k);
@@ -110,10 +110,11 @@ TEST(Substances, ChemotaxisPointsUpTheGradient) {
   SignalRule r;
   r.behaviour = Behaviour::kChemotaxis;
   r.half_max = 1e-6;
+  r.of = 0;
   r.force = 0.5;
-  w.params.substances.rule = {r};
+  w.params.rules.rule = {r};
   w.params.substances.leader_signal = 0;
-  update_guidance(w.params.substances, w.state);
+  update_guidance(w.params, w.state);
   for_each_cell(w.state, [&](const Cell& c) {
     const double x = center_of(w.state, c).x(), here = 1 + 2 * x / 200;
     const double across = 2 * sphere_radius(volume_of(w.state, c).at(0)) * 2 / 200 / here;
@@ -137,7 +138,7 @@ TEST(Substances, FlatFieldsGuideNobody) {
   World w = make_test_world({{Vec3(60, 100, 100), false}});
   add_ramp(w, 0, 0);
   w.params.substances.leader_signal = 0;
-  update_guidance(w.params.substances, w.state);
+  update_guidance(w.params, w.state);
   EXPECT_EQ(w.state.guidance[0].heading, Vec3(0, 0, 0));
 }
 
@@ -166,7 +167,7 @@ TEST(Substances, SecretionAndUptakeRespond) {
     r->power = 3;
     r->of = 1;
   }
-  p.rule = {secretes, takes};
+  w.params.rules.rule = {secretes, takes};
   const std::vector<std::vector<double>> signal = cell_concentrations(w),
                                          after = cell_exchange_rates(w);
   const substances::Shares shares = share_cells(p, w.state);

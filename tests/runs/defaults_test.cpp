@@ -144,7 +144,7 @@ contact::Boundary boundary_of(const std::vector<std::string>& set) {
 TEST(Defaults, OfTheLibraryAreThoseOfScenes) {
   const coupling::Params scene = params_of(), library;
   const auto& [dcm, cbm, dcm_contact, cbm_contact, interface, start_up, motility, life, sleep, zoom,
-               numerics, boundary, tree, apparatus, substances] = scene;
+               numerics, boundary, tree, apparatus, substances, rules] = scene;
   ASSERT_EQ(dcm.size(), 1u);
   EXPECT_EQ(fields(dcm[0]), fields(dcm::Params{}));
   EXPECT_EQ(fields(cbm[0]), fields(cbm::Params{}));
@@ -159,6 +159,7 @@ TEST(Defaults, OfTheLibraryAreThoseOfScenes) {
   EXPECT_EQ(zoom.moves(), library.zoom.moves());
   EXPECT_EQ(fields(numerics), fields(library.numerics));
   EXPECT_TRUE(boundary.planes.empty() && !tree.exists() && !substances.exists());
+  EXPECT_TRUE(rules.rule.empty());
   EXPECT_TRUE(apparatus.get<coupling::Pulls>().pull.empty());
   EXPECT_TRUE(apparatus.get<coupling::Temperature>().course.entry.empty());
   EXPECT_TRUE(apparatus.get<coupling::Suction>().pressure.entry.empty());

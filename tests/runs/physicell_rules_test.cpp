@@ -89,7 +89,7 @@ TEST(PhysiCellRules, TableBecomesAScene) {
   EXPECT_EQ(r.converted.remark.back().line, 14);
   ASSERT_EQ(r.scene.rules.size(), 6U) << "migration speed takes two rules";
   const SignalRuleEntry& necrosis = r.scene.rules[0];
-  EXPECT_EQ(necrosis.substance, "oxygen");
+  EXPECT_EQ(necrosis.name, "oxygen");
   EXPECT_EQ(necrosis.behaviour, coupling::Behaviour::kDeath);
   EXPECT_TRUE(necrosis.decreases);
   EXPECT_EQ(necrosis.cell_type, "tumour_cell");
@@ -100,7 +100,7 @@ TEST(PhysiCellRules, TableBecomesAScene) {
   EXPECT_NEAR(r.scene.cell_types.at("tumour_cell").cycle.time, 60 / 0.0007, 0.1);
   EXPECT_NEAR(r.scene.rules[3].rate, 0.001 / 60, 1e-12);
   EXPECT_EQ(r.scene.rules[4].behaviour, coupling::Behaviour::kMotility);
-  EXPECT_EQ(r.scene.rules[4].substance, "necrotic_debris");
+  EXPECT_EQ(r.scene.rules[4].name, "necrotic_debris");
   ASSERT_EQ(r.scene.substances.size(), 3U);
   EXPECT_NEAR(r.scene.substances[0].diffusion, 1e5 / 60, 1e-6);
   EXPECT_CONTAINS(r.converted.scene, "line 5, left out: tumour cell: pressure decreases");
@@ -140,6 +140,38 @@ TEST(PhysiCellRules, RatesOfExchangeAreConverted) {
   const ConvertedRules without = convert("c,oxygen,decreases,VEGF secretion,0,5,4,0").converted;
   EXPECT_EQ(without.n_converted, 0U);
   EXPECT_CONTAINS(without.remark[0].text, "give it in 1/min, as --base \"c:VEGF secretion=0.001\"");
+}
+
+TEST(PhysiCellRules, SignalsOfCellsAreConvertedWhereTheyMeanTheSame) {
+  const std::string table =
+      "c,volume,decreases,migration speed,0,2494,4,0\n"
+      "c,contact with live cell,increases,apoptosis,0.01,6,4,0\n"
+      "c,contact with big cell,increases,cell-cell adhesion,1,2,4,0\n"
+      "c,pressure,decreases,cycle entry,0,0.5,4,0\n"
+      "c,contact with dead cell,increases,apoptosis,0.01,6,4,0\n"
+      "c,contact with BM,increases,apoptosis,0.01,6,4,0\n";
+  const ConvertedRules without = convert(table).converted;
+  EXPECT_EQ(without.n_converted, 3U);
+  EXPECT_CONTAINS(without.remark[3].text, "has no unit, here it is in Pa");
+  EXPECT_CONTAINS(without.remark[4].text, "dead cells are no neighbours");
+  EXPECT_CONTAINS(without.remark[5].text, "contact with walls is no signal");
+  EXPECT_CONTAINS(without.remark[1].text, "here those that touch count");
+  const ConvertedRules with =
+      convert_physicell_rules(parse_physicell_rules(table, "r"), {}, "rules", "r", 0.1);
+  const Scene scene = parse_scene(with.scene, "rules.json");
+  EXPECT_EQ(with.n_converted, 4U);
+  EXPECT_TRUE(scene.substances.empty());
+  ASSERT_EQ(scene.rules.size(), 5U);
+  EXPECT_EQ(scene.rules[0].signal, coupling::Signal::kVolume);
+  EXPECT_NEAR(scene.rules[0].half_max, 2494, 1e-9);
+  EXPECT_EQ(scene.rules[2].signal, coupling::Signal::kNeighbours);
+  EXPECT_EQ(scene.rules[2].half_max, 6);
+  EXPECT_EQ(scene.rules[2].other, "");
+  EXPECT_EQ(scene.rules[3].behaviour, coupling::Behaviour::kAdhesion);
+  EXPECT_EQ(scene.rules[3].other, "big_cell");
+  EXPECT_TRUE(scene.cell_types.contains("big_cell"));
+  EXPECT_EQ(scene.rules[4].signal, coupling::Signal::kPressure);
+  EXPECT_NEAR(scene.rules[4].half_max, 0.05, 1e-12) << "kPa, half of what 1 stands for";
 }
 
 TEST(PhysiCellRules, BaseValuesAreChecked) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "runs/assemble/build_rules.hpp"
+#include "runs/scene/writer.hpp"
 #include "tests/runs/scene_texts.hpp"
 
 namespace acinus::runs {
@@ -52,10 +54,11 @@ TEST(SceneSubstancesErrors, NamesMustBeThoseOfSubstances) {
   const std::string rule =
       R"("rules": [{"signal": "oxigen", "behaviour": "growth", "half_max": 1}])";
   EXPECT_EQ(substance_complaint(scene_with_substances(kOxygen + (", " + rule))),
-            "/rules/0/signal = \"oxigen\": is no substance. Did you mean \"oxygen\"?");
+            "/rules/0/signal = \"oxigen\": is neither a substance of the scene nor a signal of the "
+            "cell. Did you mean \"oxygen\"?");
   EXPECT_EQ(substance_complaint(scene_with_substances(rule)),
-            "/rules/0/signal = \"oxigen\": is no substance: the scene has none. Give a block "
-            "substances");
+            "/rules/0/signal = \"oxigen\": is neither a substance of the scene nor a signal of the "
+            "cell. Known: pressure, volume, contact_area, neighbours, layer, age");
   EXPECT_EQ(substance_complaint(
                 scene_with_substances(kOxygen, R"("exchange": [{"substance": "glucose"}])")),
             "/cell_types/a/exchange/0/substance = \"glucose\": is no substance. Known: oxygen");
@@ -83,9 +86,55 @@ TEST(SceneSubstancesErrors, RulesOfExchangeNameWhatIsExchanged) {
   EXPECT_EQ(
       substance_complaint(scene_with_substances(rule("uptake", R"(, "of": "oxigen")"), secretes)),
       "/rules/0/of = \"oxigen\": is no substance. Did you mean \"oxygen\"?");
-  EXPECT_EQ(substance_complaint(scene_with_substances(rule("uptake", ""), secretes))
-                .substr(0, std::string("/rules/0/of: is missing").size()),
-            "/rules/0/of: is missing");
+  EXPECT_EQ(substance_complaint(scene_with_substances(rule("uptake", ""), secretes)),
+            "/rules/0/of = \"\": must name the substance that is secreted or taken up");
+}
+
+TEST(SceneSubstances, RulesTakeSignalsOfCellsInTheirUnits) {
+  const auto rules = [](const std::string& list) {
+    return scene_with_substances(R"("rules": [)" + list + "]");
+  };
+  const Scene scene =
+      parse_scene(rules(R"({"signal": "pressure", "behaviour": "growth", "half_max": "200 Pa"},
+               {"signal": "volume", "behaviour": "death", "half_max": "9e-15 m^3", "rate": "1 1/h"},
+               {"signal": "contact_area", "behaviour": "adhesion", "half_max": "600 um^2"},
+               {"signal": "neighbours", "behaviour": "growth", "half_max": 6, "neighbour_type": "a"},
+               {"signal": "layer", "behaviour": "growth", "half_max": 2},
+               {"signal": "age", "behaviour": "motility", "half_max": "5 h"})"),
+                  "scene.json");
+  const double half[] = {0.2, 9000, 600, 6, 2, 18000};
+  for (std::size_t k = 0; k < std::size(half); ++k) {
+    EXPECT_NEAR(scene.rules[k].half_max, half[k], 1e-9 * half[k]) << k;
+    EXPECT_NE(scene.rules[k].signal, coupling::Signal::kConcentration) << k;
+  }
+  EXPECT_EQ(describe_rule(scene.rules[0]),
+            "growth of all cells rises with pressure: half at 200 Pa, power 4");
+  EXPECT_EQ(describe_rule(scene.rules[3]),
+            "growth of all cells rises with the number of a neighbours: half at 6, power 4");
+  const Scene again = parse_scene(write_resolved(scene), "scene.json");
+  EXPECT_EQ(again.rules[5].half_max, 18000);
+}
+
+TEST(SceneSubstancesErrors, SignalsOfCellsHaveTheirUnits) {
+  const auto complaint = [](const std::string& rule, const std::string& more = "") {
+    return substance_complaint(scene_with_substances(more + R"("rules": [{)" + rule + "}]"));
+  };
+  EXPECT_CONTAINS(complaint(R"("signal": "pressure", "behaviour": "growth", "half_max": 200)"),
+                  "/rules/0/half_max = 200: ");
+  EXPECT_CONTAINS(complaint(R"("signal": "age", "behaviour": "growth", "half_max": "3 um")"),
+                  "/rules/0/half_max = \"3 um\": ");
+  EXPECT_CONTAINS(complaint(R"("signal": "neighbours", "behaviour": "growth", "half_max": "3 h")"),
+                  "/rules/0/half_max = \"3 h\": ");
+  EXPECT_EQ(complaint(R"("signal": "neighbours", "behaviour": "growth", "half_max": 3,
+                          "neighbour_type": "b")"),
+            "/rules/0/neighbour_type = \"b\": unknown cell type. Known: a");
+  EXPECT_EQ(complaint(R"("signal": "age", "behaviour": "chemotaxis", "half_max": "3 h",
+                          "force": "1 nN")"),
+            "/rules/0/of = \"\": must name the substance whose gradient cells follow: \"age\" has "
+            "none");
+  EXPECT_EQ(substance_complaint(scene_with_substances(
+                R"("substances": [{"name": "age", "diffusion": "2 um^2/s"}])")),
+            "/substances/0/name = \"age\": is a signal of cells in rules. Take another name");
 }
 
 TEST(SceneSubstancesErrors, NoConcentrationIsNegative) {

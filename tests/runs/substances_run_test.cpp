@@ -140,6 +140,63 @@ TEST_F(SubstancesRun, ThreadsDoNotMatter) {
   EXPECT_EQ(one["state_hash"], two["state_hash"]);
 }
 
+/// Eight cells without substances that divide, die, move and adhere by signals of their own.
+constexpr const char* kCrowd = R"({
+  "seed": 5,
+  "time": {"end": "200 min", "step": "5 min", "tolerance": "0.1 um"},
+  "solver": {"tolerance": 0.02},
+  "cell_types": {"tumour": {"dcm": {"nodes": 42}, "adhesion": "1e-5 J/m^2",
+    "cycle": {"time": "3 h", "spread": 0.1, "mitosis": "30 min", "start": "random"},
+    "death": {"mode": "lysis", "duration": "40 min"}}},
+  "cells": {"source": "clump", "count": 8},
+  "rules": [
+    {"signal": "pressure", "behaviour": "growth", "direction": "decreases", "half_max": "100 Pa", "power": 1},
+    {"signal": "neighbours", "behaviour": "motility", "half_max": 3, "power": 2},
+    {"signal": "contact_area", "behaviour": "adhesion", "half_max": "100 um^2", "power": 1},
+    {"signal": "volume", "behaviour": "adhesion", "direction": "decreases", "half_max": "9000 um^3"},
+    {"signal": "layer", "behaviour": "motility", "half_max": 1, "power": 1},
+    {"signal": "age", "behaviour": "death", "half_max": "3 h", "rate": "0.1 1/h"}],
+  "life": {"grid": "7 min"},
+  "contact": {"quadrature": "nodes"},
+  "motility": {"random": true, "grid": "10 min"},
+  "output": {"every": "40 min"}
+})";
+
+TEST_F(SubstancesRun, SignalsOfCellsAreBitForBitResumedAndThreaded) {
+  write("tissue.json", kCrowd);
+  for (const auto& [name, more] : {std::pair<std::string, Words>{"cbm", {"--set", "model=cbm"}},
+                                   {"zoom", zoom_},
+                                   {"sleep", {"--set", "model=cbm", "--set", "life.sleep=true"}}}) {
+    const Json end = finish(name + "_whole", with({"--threads", "1"}, more));
+    std::printf("%s: %s\n", name.c_str(), end["cells"].dump().c_str());
+    EXPECT_GE(end["cells"]["divisions"], 3);
+    const double adheres = end["measures"]["rule_2_response"].back();
+    EXPECT_GT(adheres, 0);
+    EXPECT_LT(adheres, 1);
+    finish(name + "_parts", with({"--threads", "2", "--until", "40 min"}, more));
+    finish(name + "_parts", with({"--threads", "2", "--resume", "--until", "80 min"}, more));
+    finish(name + "_parts", with({"--threads", "2", "--resume"}, more));
+    expect_same(name + "_whole", name + "_parts");
+    EXPECT_EQ(end["state_hash"], summary(name + "_parts")["state_hash"]);
+  }
+}
+
+TEST_F(SubstancesRun, RulesAreReadAloudAndCounted) {
+  write("tissue.json", kCrowd);
+  const Outcome checked = call({"check", "tissue.json"});
+  EXPECT_CONTAINS(checked.text,
+                  "rules.0: growth of all cells falls with pressure: half at 100 Pa, power 1\n");
+  EXPECT_CONTAINS(checked.text,
+                  "rules.5: death at up to 0.1 1/h of all cells rises with age: half "
+                  "at 3 h, power 4\n");
+  const Json end = finish("run", {"--set", "model=cbm", "--until", "80 min", "--set",
+                                  "rules.1.half_max=1e9", "--set", "rules.5.half_max=\"900 h\""});
+  const std::string notes = end["notes"].dump();
+  EXPECT_CONTAINS(notes, "rules.5 acted on no cell in any frame by half or more: death at up to");
+  EXPECT_EQ(notes.find("rules.1 acted"), std::string::npos) << notes;
+  EXPECT_TRUE(end["measures"].contains("rule_1_cells")) << end["measures"].dump();
+}
+
 TEST_F(SubstancesRun, LeaveFieldsAndConcentrations) {
   write("tissue.json", kTissue);
   finish("run", {"--set", "model=cbm", "--until", "80 min"});

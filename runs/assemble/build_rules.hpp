@@ -1,0 +1,18 @@
+#pragma once
+/// Rules of a scene by which cells respond to signals.
+
+#include <string>
+
+#include "coupling/world/signal.hpp"
+#include "runs/assemble/notes.hpp"
+#include "runs/scene/scene.hpp"
+
+namespace acinus::runs {
+
+/// One rule in words: "growth of all cells falls with pressure: half at 200 Pa, power 4".
+std::string describe_rule(const SignalRuleEntry& rule);
+
+/// Constants of the rules.   @param notes  receives each in words
+coupling::RuleParams build_rules(const Scene& scene, Notes& notes);
+
+}  // namespace acinus::runs
