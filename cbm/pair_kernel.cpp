@@ -116,7 +116,7 @@ class PairBatch {
     value.compliance[n_] = softness[ta] / of_a->value + softness[tb] / of_b->value;
     const TypePair& types = work_.type_pair[ta * softness.size() + tb];
     value.adhesion[n_] =
-        types.adhesion * contact::adhesion_factor(cells_.adhesion, i, cells_.adhesion, j);
+        contact::scale_adhesion(types.adhesion, cells_.adhesion, i, cells_.adhesion, j);
     friction_[n_] = types.friction;
     value.was_touching[n_] = was_touching({a, b}) ? 1 : 0;
     return ++n_ == kLanes;

@@ -30,8 +30,9 @@ struct PairLaw {
 double pair_adhesion(const InterfaceInput& in, std::size_t lane, std::size_t sphere) {
   const std::size_t type = in.cbm.state.type[sphere];
   const dcm::Params& a = in.dcm.params[in.dcm.state.group[lane / kLanes].type];
-  return in.dcm.options.adhesion_factor * contact::pair_adhesion(a, in.cbm.params[type], type) *
-         contact::adhesion_factor(in.dcm.adhesion, lane, in.cbm.cells.adhesion, sphere);
+  return in.dcm.options.adhesion_factor *
+         contact::scale_adhesion(contact::pair_adhesion(a, in.cbm.params[type], type),
+                                 in.dcm.adhesion, lane, in.cbm.cells.adhesion, sphere);
 }
 
 PairLaw law_of(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,

@@ -55,9 +55,9 @@ struct Completion {
       return {half, repulsion(in.options.repulsion), 0, std::min(0.0, k.gap - kSelfGap)};
     const double share = touching_share(in.options, work, k.a, k.point, k.gap);
     k.touching = half * share;
-    const double adhesion =
-        contact::pair_adhesion(params_of(k.a), params_of(k.b), type_of(k.b)) *
-        contact::adhesion_factor(in.adhesion, lane_of(k.a), in.adhesion, lane_of(k.b));
+    const double adhesion = contact::scale_adhesion(
+        contact::pair_adhesion(params_of(k.a), params_of(k.b), type_of(k.b)), in.adhesion,
+        lane_of(k.a), in.adhesion, lane_of(k.b));
     const bool rubs = in.options.friction_form == FrictionForm::kSurface;
     return {half, cohesive(k.a, adhesion, in.options.repulsion),
             rubs ? in.options.friction_factor * share * in.options.cell_friction : 0, k.gap};

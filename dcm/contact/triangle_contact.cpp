@@ -81,9 +81,9 @@ contact::MaugisLaw law_between(const ContactInput& in, const ContactWorkspace& w
                                                              ? in.boundary.meshes[k - n].material
                                                              : in.boundary.vessels.material));
   const std::size_t type_a = type_of(in, work, a), type_b = type_of(in, work, b);
-  const double adhesion = contact::pair_adhesion(in.params[type_a], in.params[type_b], type_b) *
-                          contact::adhesion_factor(in.adhesion, work.lane_of_body[a], in.adhesion,
-                                                   work.lane_of_body[b]);
+  const double adhesion =
+      contact::scale_adhesion(contact::pair_adhesion(in.params[type_a], in.params[type_b], type_b),
+                              in.adhesion, work.lane_of_body[a], in.adhesion, work.lane_of_body[b]);
   contact::MaugisLaw law = maugis_law(
       in.options, {in.options.adhesion_factor * adhesion, std::numeric_limits<double>::infinity()});
   law.farthest = reach - in.options.max_depth;  // triangle_reach

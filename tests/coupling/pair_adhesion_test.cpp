@@ -72,7 +72,8 @@ TEST(PairAdhesion, FactorsOfCellsAreThatOfTheirGeometricMean) {
         EXPECT_NEAR(force_of_factors(w, f, g), less, 1e-10 * std::abs(less))
             << f << first << second;
       EXPECT_NEAR(force_of_factors(w, 1, 1), whole, 1e-12 * std::abs(whole));
-      EXPECT_NEAR(force_of_factors(w, 0, 1), none, 1e-10 * std::abs(none));
+      for (const double least : {0.0, 1e-300, 1e-30, 1e-12})
+        EXPECT_NEAR(force_of_factors(w, least, least), none, 1e-8 * std::abs(none)) << least;
     }
 }
 
