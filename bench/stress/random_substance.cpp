@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t kSubstanceStream = 3;  ///< life uses stream 1, zoom stream 2
-/// Share of the scenes that have substances.
+/// Share of the scenes that have substances; of the others, share that may have rules without.
 constexpr double kShare = 0.4;
 
 /// Generator of the substances of one scene, drawn in a fixed order.
@@ -37,6 +37,8 @@ class SubstanceDrawing {
   Json draw_exchange(int number);
   Json draw_rule(int number);
   void add_rules_of_exchange(const Json& exchange, int n_substance, Json& rules);
+  void draw_signal(Json& rule);
+  void add_rules_of_cells(int n_substance, Json& rules);
 
   SubstanceSetting setting_;
   UniformStream random_;
@@ -132,9 +134,66 @@ void SubstanceDrawing::add_rules_of_exchange(const Json& exchange, int n_substan
     }
 }
 
+/// Signal of the cell itself with its half-maximum.
+void SubstanceDrawing::draw_signal(Json& rule) {
+  const double kind = random_.uniform(), r = setting_.radius;
+  const double pressure = near(50), volume = near(4.0 / 3 * kPi * r * r * r),
+               area = near(kPi * r * r), number = random_.uniform(0.5, 8),
+               age = near(0.3 * setting_.end);
+  if (kind < 0.25) {
+    rule["signal"] = "pressure";
+    rule["half_max"] = fmt::format("{:.5g} Pa", pressure);
+  } else if (kind < 0.4) {
+    rule["signal"] = "volume";
+    rule["half_max"] = fmt::format("{:.5g} um^3", volume);
+  } else if (kind < 0.6) {
+    rule["signal"] = "contact_area";
+    rule["half_max"] = fmt::format("{:.5g} um^2", area);
+  } else if (kind < 0.8) {
+    rule["signal"] = "neighbours";
+    rule["half_max"] = number;
+  } else if (kind < 0.9) {
+    rule["signal"] = "layer";
+    rule["half_max"] = number;
+  } else {
+    rule["signal"] = "age";
+    rule["half_max"] = fmt::format("{:.5g} s", age);
+  }
+}
+
+/// Rules of signals of the cell itself.
+void SubstanceDrawing::add_rules_of_cells(int n_substance, Json& rules) {
+  while (chance(0.5)) {
+    const double kind = random_.uniform(), power = decades(0.5, 20);
+    const double rate = random_.uniform(0.05, 0.5), force = random_.uniform(-0.1, 0.1);
+    const bool falls = chance(0.5);
+    Json r;
+    draw_signal(r);
+    r["behaviour"] = setting_.life && kind < 0.25    ? "growth"
+                     : setting_.life && kind < 0.4   ? "death"
+                     : n_substance > 0 && kind < 0.5 ? "chemotaxis"
+                     : kind < 0.7                    ? "motility"
+                                                     : "adhesion";
+    r["power"] = power;
+    if (falls) r["direction"] = "decreases";
+    if (r["behaviour"] == "death")
+      r["rate"] = fmt::format("{:.5g} 1/h", rate / (setting_.end / 3600));
+    if (r["behaviour"] == "chemotaxis") {
+      r["of"] = "substance_0";
+      r["force"] = fmt::format("{:.5g} nN", force);
+    }
+    rules.push_back(r);
+  }
+}
+
 std::string SubstanceDrawing::draw() {
-  if (!chance(kShare)) return "{}";
   Json scene;
+  if (!chance(kShare)) {
+    Json rules = Json::array();
+    if (chance(kShare)) add_rules_of_cells(0, rules);
+    if (!rules.empty()) scene["rules"] = rules;
+    return rules.empty() ? "{}" : scene.dump();
+  }
   const int n = chance(0.3) ? 2 : 1;
   Json substances = Json::array(), exchange = Json::array(), rules = Json::array();
   for (int k = 0; k < n; ++k) {
@@ -151,6 +210,7 @@ std::string SubstanceDrawing::draw() {
     scene["substance_grid"]["step"] =
         fmt::format("{:.5g} s", setting_.end * random_.uniform(0.002, 0.02));
   add_rules_of_exchange(exchange, n, rules);
+  add_rules_of_cells(n, rules);
   if (!rules.empty()) scene["rules"] = rules;
   return scene.dump();
 }

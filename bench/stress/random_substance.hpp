@@ -1,5 +1,5 @@
 #pragma once
-/// Random substances of the scenes of the stress suite.
+/// Random substances and rules of the scenes of the stress suite.
 
 #include <cstdint>
 #include <string>
@@ -16,8 +16,9 @@ struct SubstanceSetting {
   bool vessels = false;
 };
 
-/// JSON text of substances, exchange and rules, to be merged into the scene; "{}" for three scenes
-/// of five. Uses a random stream of its own, so that the rest of the scene is independent of it.
+/// JSON text of substances, exchange and rules, to be merged into the scene: two scenes of five
+/// have substances, one in eight rules without substances, "{}" for the rest. Uses a random stream
+/// of its own, so that the rest of the scene is independent of it.
 std::string draw_substances(const SubstanceSetting& setting);
 
 }  // namespace acinus::bench
