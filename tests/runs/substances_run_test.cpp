@@ -140,7 +140,7 @@ TEST_F(SubstancesRun, ThreadsDoNotMatter) {
   EXPECT_EQ(one["state_hash"], two["state_hash"]);
 }
 
-/// Eight cells without substances that divide, die, move and adhere by signals of their own.
+/// Four cells without substances that divide, die, move and adhere by signals of their own.
 constexpr const char* kCrowd = R"({
   "seed": 5,
   "time": {"end": "200 min", "step": "5 min", "tolerance": "0.1 um"},
@@ -148,7 +148,7 @@ constexpr const char* kCrowd = R"({
   "cell_types": {"tumour": {"dcm": {"nodes": 42}, "adhesion": "1e-5 J/m^2",
     "cycle": {"time": "3 h", "spread": 0.1, "mitosis": "30 min", "start": "random"},
     "death": {"mode": "lysis", "duration": "40 min"}}},
-  "cells": {"source": "clump", "count": 8},
+  "cells": {"source": "clump", "count": 4},
   "rules": [
     {"signal": "pressure", "behaviour": "growth", "direction": "decreases", "half_max": "100 Pa", "power": 1},
     {"signal": "neighbours", "behaviour": "motility", "half_max": 3, "power": 2},
