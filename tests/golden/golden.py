@@ -46,6 +46,7 @@ CASES = {
     "hybrid_life": [os.path.join(HERE, "hybrid_life.json")],
     "moving_zoom": [os.path.join(HERE, "moving_zoom.json")],
     "substances": [os.path.join(HERE, "substances.json")],
+    "signals": [os.path.join(HERE, "signals.json")],
     "regeneration_morphogen": ["regeneration_morphogen.json", "--set", "model=cbm", "--until", "12 h"],
     "calibration": [os.path.join(HERE, "calibration.json")],
 }

@@ -31,6 +31,7 @@ CASES = {
                "output.contacts=true", "--until", "10 min"],
     "substances": [os.path.join(GOLDEN, "substances.json"), "--until", "1 h"],
     "membranes": [os.path.join(GOLDEN, "membranes.json"), "--until", "1 h"],
+    "signals": [os.path.join(GOLDEN, "signals.json"), "--until", "1 h"],
     "life": [os.path.join(GOLDEN, "hybrid_life.json")],
     "zoom": [os.path.join(GOLDEN, "moving_zoom.json")],
     "maugis_hybrid": [os.path.join(GOLDEN, "maugis_hybrid.json"), "--until", "15 min", "--set", "output.contacts=true"],
