@@ -10,8 +10,8 @@ namespace acinus::runs {
 std::optional<std::string> unit_of_key(const std::string& key) {
   const Entry* entry = find_entry(key);
   const bool is_number =
-      entry != nullptr &&
-      (entry->type == "quantity" || entry->type == "number" || entry->type == "whole number");
+      entry != nullptr && (entry->type == "quantity" || entry->type == "number" ||
+                           entry->type == "number or quantity" || entry->type == "whole number");
   if (!is_number) return std::nullopt;
   return entry->unit.empty() ? "1" : entry->unit;
 }

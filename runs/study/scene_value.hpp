@@ -9,7 +9,8 @@
 namespace acinus::runs {
 
 /// Unit of a key in a resolved scene, "1" if dimensionless; empty if the key does not exist or has
-/// no single number.
+/// no single number. A key whose unit another one decides, as rules.<number>.half_max, counts as a
+/// plain number: that of a concentration.
 /// @param key  as in --set: "motility.leader_force"
 std::optional<std::string> unit_of_key(const std::string& key);
 

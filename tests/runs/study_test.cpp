@@ -241,6 +241,7 @@ TEST(Study, UnitsOfObservablesAreUnderstood) {
   EXPECT_EQ(scale_of_unit("1").dimension, kDimensionless);
   EXPECT_EQ(unit_of_key("motility.leader_force"), "nN");
   EXPECT_EQ(unit_of_key("cell_types.hepatocyte.dcm.nodes"), "1");
+  EXPECT_EQ(unit_of_key("rules.0.half_max"), "1");
   EXPECT_FALSE(unit_of_key("motility.random"));
   EXPECT_FALSE(unit_of_key("motility.leader_froce"));
 }
