@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
+#include <vector>
 
 #include "core/box.hpp"
 #include "core/vec.hpp"
@@ -66,6 +68,21 @@ struct VoxelGrid {
 
 /// Grid of a box with voxels no longer than `longest` along each axis, um.
 VoxelGrid make_grid(const Box& box, double longest);
+
+/// Layers of voxels at the faces of a box: x low, x high, y low, y high, z low, z high.
+using Layers = std::array<int, 6>;
+
+/// The same voxels with further layers around them.
+VoxelGrid extend_grid(const VoxelGrid& grid, const Layers& layers);
+
+/// A field with further layers around it, x before y before z: corners belong to the later axis.
+/// @param grid     of the field, without the layers
+/// @param field    [n_voxel]
+/// @param outside  values of new voxels at each face
+/// @return [n_voxel of the extended grid]
+std::vector<double> extend_field(const VoxelGrid& grid, const Layers& layers,
+                                 std::span<const double> field,
+                                 const std::array<double, 6>& outside);
 
 /// Number of voxels of make_grid, which may be too many for a grid.
 double count_voxels(const Box& box, double longest);

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
+#include "coupling/substances/growing_box.hpp"
 #include "coupling/substances/insides.hpp"
 #include "coupling/substances/responses.hpp"
 #include "coupling/world/cell.hpp"
@@ -149,6 +150,14 @@ std::vector<std::vector<double>> of_each_cell(const World& world, const F& f) {
 
 constexpr Behaviour kExchange[] = {Behaviour::kSecretion, Behaviour::kUptake};
 
+/// Factors of all substances on what the outside supplies, s since t = 0.
+std::vector<double> supplies_at(const SubstanceParams& p, double time) {
+  std::vector<double> supply;
+  for (const Substance& s : p.substance)
+    supply.push_back(s.course.entry.empty() ? 1 : s.course.at(time));
+  return supply;
+}
+
 }  // namespace
 
 void begin_substances(const SubstanceParams& p, State& s) {
@@ -192,9 +201,11 @@ void advance_substances(World& world, double step, SubstanceWorkspace& work, Tim
   State& s = world.state;
   if (!p.exists() || s.clock.phase != Phase::kRun) return;
   const auto scope = timings.scope("substances");
-  if (!work.sized) {
+  const std::vector<double> supply = supplies_at(p, time_of(s) - 0.5 * step);
+  grow_fields(world, supply);
+  if (work.n != p.grid.n) {
     work.solver.resize(p.grid.n);
-    work.sized = true;
+    work.n = p.grid.n;
   }
   const std::vector<Cell> cells = list_cells(s);
   const RuleSignals signal = rule_signals(world, kExchange);
@@ -215,9 +226,7 @@ void advance_substances(World& world, double step, SubstanceWorkspace& work, Tim
     const substances::Shares& shares = space == nullptr ? everywhere : in_open;
     const std::vector<substances::Exchange> exchange =
         exchange_of_cells(world.params, k, s, cells, shares, signal);
-    const double middle = time_of(s) - 0.5 * step;
-    substances::Advance how{step, p.longest_step, p.tolerance};
-    if (!substance.course.entry.empty()) how.supply = substance.course.at(middle);
+    substances::Advance how{step, p.longest_step, p.tolerance, supply[k]};
     if (space != nullptr) {
       how.space = space;
       how.held = hold_amounts(field, *space, work.held);

@@ -1,6 +1,7 @@
 #pragma once
 /// Fields of substances around the cells of a world.
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct SubstanceWorkspace {
   substances::Solver solver;
   ObstacleCover obstacles;
   std::vector<double> held;  ///< [n_voxel] amounts before a step, per volume of a voxel
-  bool sized = false;
+  std::array<int, 3> n{};    ///< voxels that the solver is sized for
 };
 
 /// Sets all fields to their initial values.
@@ -36,7 +37,7 @@ substances::Shares share_cells(const SubstanceParams& params, const State& state
 
 /// Advances all fields over a step of the tissue, with the cells where they are. Cells in lysis
 /// exchange nothing. Cells that moved since the last step leave amounts where they are; those of
-/// voxels that closed go to the nearest open ones.
+/// voxels that closed go to the nearest open ones. A box that grows does so before.
 /// @throws Error(kCannotContinue) if a field does not converge, or if no space is left
 void advance_substances(World& world, double step, SubstanceWorkspace& work, Timings& timings);
 

@@ -35,7 +35,10 @@ struct Substance {
 };
 
 struct SubstanceParams {
-  substances::VoxelGrid grid;
+  substances::VoxelGrid grid;        ///< present; see substances/growing_box.hpp
+  substances::VoxelGrid first_grid;  ///< at t = 0; with `grows`
+  bool grows = false;                ///< the box keeps `margin` around the cells
+  double margin = 0;                 ///< um
   std::vector<Substance> substance;
   double longest_step = 0;  ///< s; 0: the step of the tissue
   double tolerance = 1e-6;
@@ -57,6 +60,7 @@ struct SubstanceState {
   std::vector<double> open;           ///< [n_voxel] open fraction of a voxel; empty: all is open
   InsideState inside;                 ///< empty without membranes
   double secreted = 0, entered = 0, supplied = 0, decayed = 0;
+  substances::Layers layers{};  ///< added to the first grid, the same of all substances
 };
 
 }  // namespace acinus::coupling

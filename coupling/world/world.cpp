@@ -134,6 +134,7 @@ std::uint64_t hash_state(const State& s) {
       add(inside.concentration);
     }
     add(std::array{field.secreted, field.entered, field.supplied, field.decayed});
+    if (field.layers != substances::Layers{}) add(field.layers);
   }
   const std::uint64_t value = XXH64_digest(hash);
   XXH64_freeState(hash);

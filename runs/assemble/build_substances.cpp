@@ -208,6 +208,9 @@ void build_substances(const Scene& scene, coupling::World& world, Notes& notes) 
   const double spacing = g.spacing > 0 ? g.spacing : smallest_radius(scene);
   check_size(scene, box, spacing);
   p.grid = substances::make_grid(box, spacing);
+  p.first_grid = p.grid;
+  p.grows = g.grow;
+  p.margin = g.margin;
   p.longest_step = g.step;
   p.tolerance = g.tolerance;
   p.leader_signal =

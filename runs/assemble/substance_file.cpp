@@ -23,6 +23,17 @@ coupling::InsideState get_insides(const io::CheckpointData& d, const std::string
   return inside;
 }
 
+substances::Layers get_layers(const io::CheckpointData& d, const std::string& name) {
+  substances::Layers layers{};
+  if (!d.contains(name)) return layers;
+  const std::vector<std::int64_t>& value = d.integers(name);
+  check_same(d, name, value.size(), layers.size());
+  constexpr std::int64_t kMost = 1'000'000;
+  for (std::size_t face = 0; face < layers.size(); ++face)
+    layers[face] = static_cast<int>(std::clamp<std::int64_t>(value[face], 0, kMost));
+  return layers;
+}
+
 /// True if all parts can be those of a grid, and there are none without membranes.
 bool is_sound(const coupling::InsideState& inside, bool has_membranes, std::size_t n_voxel) {
   for (std::size_t p = 0; p < inside.cell.size(); ++p)
@@ -123,6 +134,8 @@ void put_substances(const coupling::State& s, io::CheckpointData& d) {
     }
     d.put(name + "amounts",
           std::vector{field.secreted, field.entered, field.supplied, field.decayed});
+    if (field.layers != substances::Layers{})
+      d.put(name + "layers", std::vector<std::int64_t>(field.layers.begin(), field.layers.end()));
   }
 }
 
@@ -138,7 +151,8 @@ void get_substances(const io::CheckpointData& d, coupling::State& s) {
     s.substance.push_back(
         {d.numbers(name + "concentration"),
          d.contains(name + "open") ? d.numbers(name + "open") : std::vector<double>{},
-         get_insides(d, name + "inside_"), amounts[0], amounts[1], amounts[2], amounts[3]});
+         get_insides(d, name + "inside_"), amounts[0], amounts[1], amounts[2], amounts[3],
+         get_layers(d, name + "layers")});
   }
 }
 
@@ -158,6 +172,8 @@ void check_substances(const coupling::Params& params, const coupling::State& s,
     const coupling::SubstanceState& field = s.substance[k];
     need(field.open.size() == (p.substance[k].is_kept_out() ? p.grid.n_voxel() : 0) &&
          std::ranges::all_of(field.open, [](double open) { return open >= 0 && open <= 1; }));
+    need(field.layers == s.substance.front().layers &&
+         (p.grows || field.layers == substances::Layers{}));
     need(is_sound(field.inside, p.substance[k].has_membranes(), p.grid.n_voxel()));
     need(field.concentration.size() == p.grid.n_voxel() &&
          std::ranges::all_of(field.concentration, [](double c) { return std::isfinite(c); }));

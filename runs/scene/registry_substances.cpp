@@ -163,12 +163,16 @@ void describe_substance_grid(Visitor& v, SubstanceGridBlock& b) {
        .unit = "um"},
       b.box);
   v.real({.name = "margin",
-          .meaning = "space between the cells and the faces of a box that is not given; walls "
-                     "along the axes end it",
+          .meaning = "space between the cells and the faces of a box that is not given or grows; "
+                     "walls along the axes end it",
           .dimension = kLength,
           .unit = "um",
           .range = kNotNegative},
          b.margin);
+  v.flag({.name = "grow",
+          .meaning = "the box grows with the tissue, by voxels with the concentration outside, so "
+                     "that the margin stays. Faces where a substance has no_flux stay in place"},
+         b.grow);
   real_or_auto(v,
                {.name = "step",
                 .meaning = "longest step of the fields: the error in time is proportional to it",

@@ -148,6 +148,36 @@ void check_signal_rules(const Scene& scene, Report& report) {
   }
 }
 
+/// A box that grows: new voxels need a concentration, and hold nothing but the medium.
+void check_growing_box(const Scene& scene, Report& report) {
+  const std::string grow = "/substance_grid/grow";
+  std::set<BoxFace> closed;
+  for (std::size_t k = 0; k < scene.substances.size(); ++k) {
+    const SubstanceBlock& s = scene.substances[k];
+    const std::string pointer = fmt::format("/substances/{}", k);
+    for (const auto& [has, key] : {std::pair{!s.sources.empty(), "sources"},
+                                   {s.vessels.has_value(), "vessels"},
+                                   {s.outside_cells(), "cells"},
+                                   {s.outside_obstacles, "obstacles"}})
+      if (has)
+        report.add_relation({grow, pointer + "/" + key}, "true",
+                            fmt::format("a box that grows holds cells and medium only: leave out "
+                                        "{}/{}, or give a /substance_grid/box that stays",
+                                        pointer, key));
+    for (int side = 0; side < 6; ++side) {
+      substances::FaceKind kind = s.boundary.kind;
+      for (const FaceEntry& face : s.faces)
+        if (static_cast<int>(face.side) == side) kind = face.kind;
+      if (kind == substances::FaceKind::kNoFlux) closed.insert(static_cast<BoxFace>(side));
+    }
+  }
+  if (closed.size() == 6)
+    report.add_relation({grow, "/substances"}, "true",
+                        "no face of the box can grow: each has no_flux for a substance. Give "
+                        "boundary or faces of kind fixed or exchange, with the concentration "
+                        "outside");
+}
+
 void check_grid(const Scene& scene, Report& report) {
   const SubstanceGridBlock& g = scene.substance_grid;
   const std::string pointer = "/substance_grid";
@@ -179,6 +209,7 @@ void check_substances(const Scene& scene, Report& report) {
   check_signal_rules(scene, report);
   check_substance_name(scene, scene.motility.leader_signal, "/motility/leader_signal", report);
   if (!scene.substances.empty()) check_grid(scene, report);
+  if (scene.substance_grid.grow) check_growing_box(scene, report);
 }
 
 }  // namespace acinus::runs

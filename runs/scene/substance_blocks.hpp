@@ -57,6 +57,7 @@ struct SubstanceGridBlock {
   double spacing = 0;                      ///< um; 0: the radius of the smallest cell type
   std::optional<std::array<Vec3, 2>> box;  ///< empty: around cells, vessels and lobule
   double margin = 100;                     ///< um, around them
+  bool grow = false;                       ///< the box keeps the margin around the cells
   double step = coupling::SubstanceParams{}.longest_step;  ///< s; 0: the step of the tissue
   double tolerance = coupling::SubstanceParams{}.tolerance;
 };

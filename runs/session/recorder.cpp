@@ -11,6 +11,7 @@
 #include "core/parallel/clock.hpp"
 #include "coupling/measure/pair_contacts.hpp"
 #include "coupling/step/workspace_size.hpp"
+#include "coupling/substances/growing_box.hpp"
 #include "dcm/contact/contact_bodies.hpp"
 #include "runs/assemble/build_substances.hpp"
 #include "runs/assemble/state_file.hpp"
@@ -72,6 +73,7 @@ Notes Recorder::resume() {
   coupling::World& world = simulation_.world();
   get_state(data, types_of(world.params), world.state);
   coupling::place_vessels(world.params.tree, world.state.tree, world.params.boundary.vessels);
+  coupling::place_fields(world.params.substances, world.state);
   check_substances(world.params, world.state, data.source());
   simulation_.resize();
   get_totals(data, totals_);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/error.hpp"
 #include "service/report/pack.hpp"
 #include "service/report/thin.hpp"
 
@@ -121,7 +122,16 @@ void add_frame(PackedRun& out, const io::Frame& f, int number) {
 /// most: the byte itself in base64.
 constexpr double kShareOfFields = 0.25, kBytesPerValue = 4.0 / 3;
 
-/// Adds the fields of substances to the last frame.
+/// Fields of the last frame of the run, up to which a box may have grown; empty if unreadable.
+std::optional<io::FieldFrame> last_fields(const RunRecord& run) {
+  try {
+    return io::read_fields(run.folder, static_cast<std::size_t>(run.n_frame() - 1));
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+/// Adds the fields of substances to the last packed frame.
 void add_fields(PackedRun& out, RunRecord& run, const FrameLimits& limits, int n_frame) {
   PackedFrame& frame = out.frame.back();
   const std::optional<io::FieldFrame> fields = read_fields(run, frame.number, frame.time_s);
@@ -129,7 +139,7 @@ void add_fields(PackedRun& out, RunRecord& run, const FrameLimits& limits, int n
   if (!out.grid.exists()) {
     const double most =
         kShareOfFields * static_cast<double>(limits.bytes) / (kBytesPerValue * n_frame);
-    out.grid = make_packed_grid(*fields, static_cast<std::size_t>(most));
+    out.grid = make_packed_grid(last_fields(run).value_or(*fields), static_cast<std::size_t>(most));
   }
   if (out.grid.exists())
     attempt(run, fmt::format("fields of frame {}", frame.number),

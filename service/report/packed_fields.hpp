@@ -26,8 +26,10 @@ struct PackedGrid {
 /// @param most  numbers in all fields of a frame
 PackedGrid make_packed_grid(const io::FieldFrame& frame, std::size_t most);
 
-/// Packs a frame: per field the values of its blocks, x fastest.
-/// @throws Error(kFileError) if it has another grid or other fields
+/// Packs a frame: per field the values of its blocks, x fastest. Blocks beyond the box of the frame
+/// have the values at its faces.
+/// @throws Error(kFileError) if its voxels are not among those of the grid, or its fields are
+/// others
 std::string pack_fields(const PackedGrid& grid, const io::FieldFrame& frame);
 
 }  // namespace acinus::service

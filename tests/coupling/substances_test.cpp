@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/sphere.hpp"
 #include "coupling/migration/migration.hpp"
 #include "coupling/simulation.hpp"
 #include "coupling/substances/fields.hpp"
+#include "coupling/substances/growing_box.hpp"
 #include "coupling/substances/responses.hpp"
 #include "coupling/substances/vessel_feed.hpp"
 #include "substances/diffusion.hpp"
@@ -269,6 +271,69 @@ TEST(Substances, VesselsFeedAlongTheirWalls) {
   // The second vessel leaves the box after 10 um.
   EXPECT_NEAR(loss, 2 * 2 * kPi * 5 * 90, 0.01 * loss);
   EXPECT_NEAR(gain, 7 * loss, 1e-12 * gain);
+}
+
+/// Oxygen in a box, fixed at all faces but the lower one along z, and taken up by two cells.
+World world_in_oxygen(const substances::VoxelGrid& grid) {
+  World w = make_test_world({{Vec3(100, 100, 60), true}, {Vec3(150, 100, 60), false}});
+  SubstanceParams& p = w.params.substances;
+  p.grid = p.first_grid = grid;
+  Substance s;
+  s.name = "oxygen";
+  s.initial = 38;
+  s.medium.diffusion = 2000;
+  s.medium.face.fill({substances::FaceKind::kFixed, 38, 0});
+  s.medium.face[4] = {};
+  s.exchange.resize(w.params.dcm.size());
+  for (CellExchange& e : s.exchange) e.uptake_max = 50;
+  p.substance = {s};
+  begin_substances(p, w.state);
+  return w;
+}
+
+TEST(GrowingBox, KeepsTheMarginAndTheAmounts) {
+  const substances::VoxelGrid grid = substances::make_grid({Vec3::Zero(), Vec3::Constant(200)}, 10);
+  World w = world_in_oxygen(grid);
+  SubstanceParams& p = w.params.substances;
+  p.margin = 60;
+  grow_fields(w, {1});
+  EXPECT_EQ(p.grid.n, grid.n);  // a box that stays
+  p.grows = true;
+  grow_fields(w, {0.5});
+  // The sphere ends 38 um before x = 200 um: 22 um are lacking, and faces grow by four voxels.
+  EXPECT_EQ(w.state.substance[0].layers, (substances::Layers{0, 4, 0, 0, 0, 0}));
+  EXPECT_EQ(p.grid.box().high, Vec3(240, 200, 200));
+  EXPECT_EQ(p.grid.box().low, Vec3(0, 0, 0));
+  EXPECT_DOUBLE_EQ(w.state.substance[0].entered, 40.0 * 200 * 200 * 19);
+  EXPECT_DOUBLE_EQ(amount_of(p, w.state.substance[0]), 200.0 * 200 * (200 * 38 + 40 * 19));
+  grow_fields(w, {1});
+  EXPECT_EQ(p.grid.n[0], 24);  // the margin is there
+  const substances::VoxelGrid grown = p.grid;
+  p.grid = grid;
+  place_fields(p, w.state);
+  EXPECT_EQ(p.grid.n, grown.n);
+  EXPECT_EQ(p.grid.low, grown.low);
+}
+
+TEST(GrowingBox, HasTheFieldOfAWideOne) {
+  const substances::VoxelGrid grid = substances::make_grid({Vec3::Zero(), Vec3::Constant(200)}, 10);
+  World narrow = world_in_oxygen(grid),
+        wide = world_in_oxygen(substances::extend_grid(grid, {4, 8, 4, 4, 0, 0}));
+  SubstanceParams& p = narrow.params.substances;
+  p.margin = 110;
+  Timings timings;
+  SubstanceWorkspace of_narrow, of_wide;
+  advance_substances(narrow, 60, of_narrow, timings);  // sizes the solver
+  EXPECT_EQ(p.grid.n, grid.n);
+  p.grows = true;
+  advance_substances(narrow, 1e9, of_narrow, timings);
+  advance_substances(wide, 1e9, of_wide, timings);
+  ASSERT_EQ(p.grid.n, wide.params.substances.grid.n);
+  EXPECT_LT((p.grid.low - wide.params.substances.grid.low).norm(), 1e-9);
+  const std::vector<double>&a = narrow.state.substance[0].concentration,
+        &b = wide.state.substance[0].concentration;
+  EXPECT_LT(*std::ranges::min_element(b), 37);
+  for (std::size_t v = 0; v < b.size(); ++v) ASSERT_NEAR(a[v], b[v], 1e-3);
 }
 
 }  // namespace

@@ -158,6 +158,22 @@ TEST(SceneSubstancesErrors, VoxelsAreNoLargerThanCells) {
       "/substance_grid/box/0/1 = \"5 um\": must be below /substance_grid/box/1/1 = \"5 um\"");
 }
 
+TEST(SceneSubstancesErrors, BoxThatGrowsNeedsAConcentrationOutside) {
+  const auto with = [](const std::string& keys) {
+    return scene_with_substances(R"("substances": [{"name": "x", "diffusion": "1 um^2/s")" + keys +
+                                 R"(}], "substance_grid": {"grow": true})");
+  };
+  EXPECT_EQ(substance_complaint(with(R"(, "boundary": {"kind": "no_flux"})")),
+            "/substance_grid/grow = true: no face of the box can grow: each has no_flux for a "
+            "substance. Give boundary or faces of kind fixed or exchange, with the concentration "
+            "outside");
+  const std::string fixed = R"(, "boundary": {"kind": "fixed", "value": 1})";
+  EXPECT_EQ(substance_complaint(with(fixed + R"(, "cells": "keep_out")")),
+            "/substance_grid/grow = true: a box that grows holds cells and medium only: leave out "
+            "/substances/0/cells, or give a /substance_grid/box that stays");
+  EXPECT_NO_THROW(parse_scene(with(fixed), "scene.json"));
+}
+
 TEST(SceneSubstancesErrors, UnitIsNamed) {
   EXPECT_EQ(substance_complaint(scene_with_substances(
                 R"("substances": [{"name": "x", "unit": "", "diffusion": "1 um^2/s"}])")),

@@ -62,7 +62,7 @@ inline constexpr const char* kFull = R"({
       "course": [{"time": "1 h", "factor": 0.5}],
       "vessels": {"concentration": 60, "permeability": "3 um/s"}}],
   "substance_grid": {"spacing": "9 um", "box": [["0 um", "0 um", "0 um"], ["1 um", "2 um", "3 um"]],
-                     "margin": "50 um", "step": "90 s", "tolerance": 1e-5},
+                     "margin": "50 um", "grow": false, "step": "90 s", "tolerance": 1e-5},
   "rules": [{"signal": "oxygen", "behaviour": "death", "direction": "decreases", "half_max": 2.5,
              "power": 6, "rate": "0.3 1/h", "cell_type": "old"},
             {"signal": "oxygen", "behaviour": "chemotaxis", "half_max": 1, "force": "-0.1 nN",

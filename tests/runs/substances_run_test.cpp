@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "io/field_file.hpp"
 #include "tests/runs/program.hpp"
 
 namespace acinus::runs {
@@ -195,6 +196,33 @@ TEST_F(SubstancesRun, RulesAreReadAloudAndCounted) {
   EXPECT_CONTAINS(notes, "rules.5 acted on no cell in any frame by half or more: death at up to");
   EXPECT_EQ(notes.find("rules.1 acted"), std::string::npos) << notes;
   EXPECT_TRUE(end["measures"].contains("rule_1_cells")) << end["measures"].dump();
+}
+
+TEST_F(SubstancesRun, GrowingBoxResumedIsBitForBit) {
+  write("tissue.json", R"({
+  "time": {"end": "3 h", "step": "300 s"},
+  "cell_types": {"a": {"radius": "12 um", "dcm": {"nodes": 42},
+    "cycle": {"time": "4 h", "spread": 0.1, "start": "random"},
+    "exchange": [{"substance": "oxygen", "uptake_max": "2 1/s", "half_max": 1}]}},
+  "cells": {"source": "clump", "count": 5},
+  "substances": [{"name": "oxygen", "unit": "mmHg", "diffusion": "2000 um^2/s", "initial": 38,
+                  "boundary": {"kind": "fixed", "value": 38}}],
+  "substance_grid": {"margin": "40 um", "step": "100 s", "grow": true,
+                     "box": [["-70 um", "-70 um", "-70 um"], ["70 um", "70 um", "70 um"]]},
+  "contact": {"quadrature": "nodes"},
+  "motility": {"random": true, "grid": "10 min"},
+  "output": {"every": "1 h"}
+})");
+  const Json end = finish("whole", zoom_);
+  EXPECT_GE(end["cells"]["divisions"], 3);
+  finish("parts", with({"--until", "1 h"}, zoom_));
+  finish("parts", with({"--resume", "--until", "2 h"}, zoom_));
+  finish("parts", with({"--resume"}, zoom_));
+  expect_same("whole", "parts");
+  const auto first = io::read_fields(path("whole"), 0), last = io::read_fields(path("whole"), 3);
+  ASSERT_TRUE(first && last);
+  EXPECT_GT(last->n[0], first->n[0]);
+  EXPECT_LT(last->origin.x(), first->origin.x());
 }
 
 TEST_F(SubstancesRun, LeaveFieldsAndConcentrations) {

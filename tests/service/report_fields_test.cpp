@@ -73,6 +73,20 @@ TEST(ReportFields, AreThinnedToMeansOfBlocks) {
   EXPECT_LT(pack_fields(thin, frame).size(), 4 * 36U);
 }
 
+TEST(ReportFields, OfASmallerBoxReachTheWholeGrid) {
+  const io::FieldFrame wide = make_fields(0, {6, 5, 4});
+  io::FieldFrame narrow = make_fields(0, {3, 5, 4});
+  narrow.origin.x() += 2 * wide.spacing.x();
+  const PackedGrid grid = make_packed_grid(wide, 1000);
+  // Its values 0, 1, 2 begin at the third voxel, and go on beyond its faces.
+  io::FieldFrame expected = wide;
+  for (std::size_t v = 0; v < expected.field[0].value.size(); ++v)
+    expected.field[0].value[v] = std::array<float, 6>{0, 0, 0, 1, 2, 2}[v % 6];
+  EXPECT_EQ(pack_fields(grid, narrow), pack_fields(grid, expected));
+  narrow.origin.x() += 0.5;
+  EXPECT_THROW(pack_fields(grid, narrow), Error);
+}
+
 TEST(ReportFields, AreThoseOfTheFrames) {
   const Folder f("report_fields");
   const std::string folder = write_run(f, 3, {8, 8, 8});

@@ -39,5 +39,34 @@ TEST(Sample, GridOfOneVoxelHasNoGradient) {
   EXPECT_EQ(interpolate(g, c, Vec3(1, 2, 3)), 4);
 }
 
+TEST(ExtendedField, KeepsItsPlaceAndHasTheValuesOutside) {
+  const VoxelGrid g = make_grid({Vec3(-10, 0, 5), Vec3(40, 30, 60)}, 4.3);
+  const auto linear = [](const Vec3& x) { return 100 + x.x() + 2 * x.y() - 3 * x.z(); };
+  const Layers layers{2, 0, 0, 3, 1, 1};
+  const VoxelGrid wide = extend_grid(g, layers);
+  EXPECT_EQ(wide.spacing, g.spacing);
+  EXPECT_EQ(wide.n, (std::array{g.n[0] + 2, g.n[1] + 3, g.n[2] + 2}));
+  const std::vector<double> c = extend_field(g, layers, sample(g, linear), {1, 2, 3, 4, 5, 6});
+  ASSERT_EQ(c.size(), wide.n_voxel());
+  int inside = 0;
+  for (int k = 0; k < wide.n[2]; ++k)
+    for (int j = 0; j < wide.n[1]; ++j)
+      for (int i = 0; i < wide.n[0]; ++i) {
+        const Vec3 x = wide.center(i, j, k);
+        const double value = c[wide.index(i, j, k)];
+        if (k == 0 || k == wide.n[2] - 1) {
+          EXPECT_EQ(value, k == 0 ? 5 : 6);
+        } else if (j >= g.n[1]) {
+          EXPECT_EQ(value, 4);
+        } else if (i < 2) {
+          EXPECT_EQ(value, 1);
+        } else {
+          EXPECT_NEAR(value, linear(x), 1e-9);
+          ++inside;
+        }
+      }
+  EXPECT_EQ(inside, static_cast<int>(g.n_voxel()));
+}
+
 }  // namespace
 }  // namespace acinus::substances
