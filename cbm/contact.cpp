@@ -99,23 +99,29 @@ void compute_overlaps(const ContactInput& in, ContactWorkspace& work) {
   }
 }
 
-double largest_separation(const State& s, std::span<const Params> params,
-                          std::span<const double> radius, const contact::Boundary& boundary) {
-  if (s.n_cell() == 0) return 0;
+double largest_separation(std::span<const Params> params, const Extremes& spheres,
+                          const contact::Boundary& boundary) {
+  if (spheres.largest == 0) return 0;
   double adhesion = std::max(boundary.vessels.material.adhesion, contact::largest_adhesion(params));
   contact::for_each_wall(boundary, [&](auto, auto, const auto& wall) {
     adhesion = std::max(adhesion, wall.material.adhesion);
   });
   for (const auto& m : boundary.meshes) adhesion = std::max(adhesion, m.material.adhesion);
   if (adhesion <= 0) return 0;
-  double softest = *std::ranges::min_element(s.young);
+  double softest = spheres.softest;
   if (!boundary.vessels.network.segment.empty())
     softest = std::min(softest, boundary.vessels.material.young);
-  const double largest = *std::ranges::max_element(radius);
   // |delta_min| = 3 a_d^2 / R grows with R^(1/3) and falls with E: flat soft partners are the worst
   // case.
-  const contact::SpherePair pair{largest, softest / 2, adhesion};
+  const contact::SpherePair pair{spheres.largest, softest / 2, adhesion};
   return -contact::jkr_special(pair).fold.overlap;
+}
+
+double largest_separation(const State& s, std::span<const Params> params,
+                          std::span<const double> radius, const contact::Boundary& boundary) {
+  if (s.n_cell() == 0) return 0;
+  return largest_separation(
+      params, {*std::ranges::min_element(s.young), *std::ranges::max_element(radius)}, boundary);
 }
 
 double relative_overlap(const ContactWorkspace& work, std::size_t cell, const StiffnessLaw& law) {
@@ -155,6 +161,54 @@ bool pairs_hold(const ContactInput& in, const ContactWorkspace& work, const Rank
   return 2 * (moved + wider) <= in.options.skin;
 }
 
+/// Extremes over the spheres of all processes.
+Extremes find_extremes(const ContactInput& in, const ContactWorkspace& work, const Ranks& ranks) {
+  Extremes e;
+  for (std::size_t i = 0; i < in.state.n_cell(); ++i) {
+    if (work.is_ghost(i)) continue;
+    e.softest = std::min(e.softest, in.state.young[i]);
+    e.largest = std::max(e.largest, in.cells.radius[i]);
+  }
+  if (work.ghost.empty()) return e;
+  std::array<double, 2> most{-e.softest, e.largest};
+  ranks.max(most);
+  return {-most[0], most[1]};
+}
+
+/// Pairs of own spheres and segments of vessels, closer than a margin.
+std::vector<std::pair<int, int>> find_segments(const ContactInput& in, const ContactWorkspace& work,
+                                               double margin) {
+  const State& s = in.state;
+  const geometry::Network& network = in.boundary.vessels.network;
+  if (network.segment.empty()) return {};
+  std::vector<Box> boxes, segments;
+  std::vector<int> sphere;
+  double widest = 0;
+  for (std::size_t i = 0; i < s.n_cell(); ++i) {
+    if (work.is_ghost(i)) continue;
+    boxes.push_back(sphere_box(center_of(s, i), in.cells.radius[i]));
+    sphere.push_back(static_cast<int>(i));
+  }
+  for (std::size_t k = 0; k < network.segment.size(); ++k) {
+    Box box;
+    for (int n : network.segment[k]) box.include(network.node[n]);
+    const double wide = std::max(network.radius[k][0], network.radius[k][1]);
+    segments.push_back(box.grown(wide));
+    widest = std::max(widest, wide);
+  }
+  // A surface about the vessels may be that much farther out, in its rounded creases.
+  constexpr double kRounding = 0.05;
+  const double beyond = in.boundary.vessels.wall ? margin + kRounding * widest : margin;
+  std::vector<std::pair<int, int>> pairs = contact::find_pairs_between(boxes, segments, beyond);
+  for (std::pair<int, int>& p : pairs) p.first = sphere[p.first];
+  std::erase_if(pairs, [&](const std::pair<int, int>& p) {
+    const std::size_t i = p.first;
+    return contact::gap_to_segment(network, p.second, center_of(s, i)).gap >
+           in.cells.radius[i] + beyond;
+  });
+  return pairs;
+}
+
 /// Notes the sizes and places of own cells, and which others are near them.
 void note_cells(const ContactInput& in, ContactWorkspace& work) {
   const State& s = in.state;
@@ -162,7 +216,7 @@ void note_cells(const ContactInput& in, ContactWorkspace& work) {
   set_size(work.list_radius, s.n_cell());
   for (std::size_t i = 0; i < s.n_cell(); ++i) {
     if (work.is_ghost(i)) {
-      work.ghost[i] = ContactWorkspace::kFar;
+      if (!work.is_absent(i)) work.ghost[i] = ContactWorkspace::kFar;
       continue;
     }
     store_point(work.list_position.data(), cell_address(0, i), center_of(s, i));
@@ -179,35 +233,12 @@ void note_cells(const ContactInput& in, ContactWorkspace& work) {
 bool refresh_pairs(const ContactInput& in, ContactWorkspace& work, const Ranks& ranks) {
   if (pairs_hold(in, work, ranks)) return false;
   const State& s = in.state;
-  const std::span<const double> radius = in.cells.radius;
-  const double margin = largest_separation(s, in.params, radius, in.boundary) + in.options.skin;
-  contact::find_sphere_pairs(s.position.data(), radius, margin, work.ghost, work.pair);
-  work.segment.clear();
-  const geometry::Network& network = in.boundary.vessels.network;
-  if (!network.segment.empty()) {
-    std::vector<Box> boxes, segments;
-    double widest = 0;
-    for (std::size_t i = 0; i < s.n_cell(); ++i)
-      boxes.push_back(sphere_box(center_of(s, i), radius[i]));
-    for (std::size_t k = 0; k < network.segment.size(); ++k) {
-      Box box;
-      for (int n : network.segment[k]) box.include(network.node[n]);
-      const double wide = std::max(network.radius[k][0], network.radius[k][1]);
-      segments.push_back(box.grown(wide));
-      widest = std::max(widest, wide);
-    }
-    // A surface about the vessels may be that much farther out, in its rounded creases.
-    constexpr double kRounding = 0.05;
-    const double beyond = in.boundary.vessels.wall ? margin + kRounding * widest : margin;
-    work.segment = contact::find_pairs_between(boxes, segments, beyond);
-    std::erase_if(work.segment, [&](const std::pair<int, int>& p) {
-      const std::size_t i = p.first;
-      return work.is_ghost(i) ||
-             contact::gap_to_segment(network, p.second, center_of(s, i)).gap > radius[i] + beyond;
-    });
-  }
+  const double margin =
+      largest_separation(in.params, find_extremes(in, work, ranks), in.boundary) + in.options.skin;
+  contact::find_sphere_pairs(s.position.data(), in.cells.radius, margin, work.ghost, work.pair);
+  work.segment = find_segments(in, work, margin);
   work.list_network = {};
-  if (in.vessel_row != contact::kAtRest) work.list_network = network;
+  if (in.vessel_row != contact::kAtRest) work.list_network = in.boundary.vessels.network;
   note_cells(in, work);
   ++work.list_builds;
   return true;

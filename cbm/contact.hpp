@@ -2,6 +2,7 @@
 /// Contacts of spheres with each other and with the boundary: JKR with hysteresis, and their links.
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -30,8 +31,17 @@ double relative_overlap(const ContactWorkspace& work, std::size_t cell, const St
 /// Adds one contact of a cell to its overlaps. @pre overlap_sum is not empty
 void count_overlap(ContactWorkspace& work, std::size_t cell, double relative, double share);
 
+/// Extremes over spheres that bound the reach of their contacts.
+struct Extremes {
+  double softest = std::numeric_limits<double>::infinity();  ///< kPa
+  double largest = 0;                                        ///< um, radius; 0: no sphere
+};
+
 /// Largest separation of two adhering spheres before contact ends, um: a bound over all pairs and
 /// over the boundary.
+double largest_separation(std::span<const Params> params, const Extremes& spheres,
+                          const contact::Boundary& boundary);
+/// The same for the spheres of a state.
 double largest_separation(const State& state, std::span<const Params> params,
                           std::span<const double> radius, const contact::Boundary& boundary);
 

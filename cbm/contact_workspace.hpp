@@ -11,6 +11,7 @@
 #include "cbm/state.hpp"
 #include "cbm/stiffness_law.hpp"
 #include "contact/boundary.hpp"
+#include "contact/neighbours.hpp"
 #include "contact/vessel_side.hpp"
 #include "core/parallel/row_vector.hpp"
 #include "geometry/network.hpp"
@@ -46,7 +47,8 @@ struct TypePair {
 struct ContactWorkspace {
   /// [n_cell] kFar: ghost cell, computed by another process; empty: none. Set by the caller.
   /// refresh_pairs and the DCM-CBM interface make those near own cells kNear. Sums over the
-  /// contacts of a cell are complete for own cells only, and kFar cells have no numbers.
+  /// contacts of a cell are complete for own cells only, and kFar cells have no numbers. kAbsent
+  /// ones, which are set by the caller too, have no position either.
   std::vector<std::uint8_t> ghost;
   /// Near pairs with an own cell, ascending; written by: refresh_pairs
   std::vector<std::pair<int, int>> pair;
@@ -74,9 +76,12 @@ struct ContactWorkspace {
   std::int64_t searches = 0;               ///< calls of find_contacts
   std::int64_t corrected = 0, beyond = 0;  ///< moduli by a law, and those beyond its range
 
-  static constexpr std::uint8_t kFar = 1, kNear = 2;
+  static constexpr std::uint8_t kFar = 1, kNear = 2, kAbsent = contact::kAbsentSphere;
   bool is_ghost(std::size_t cell) const { return !ghost.empty() && ghost[cell] != 0; }
-  bool is_far(std::size_t cell) const { return !ghost.empty() && ghost[cell] == kFar; }
+  bool is_absent(std::size_t cell) const { return !ghost.empty() && ghost[cell] == kAbsent; }
+  bool is_far(std::size_t cell) const {
+    return !ghost.empty() && (ghost[cell] == kFar || ghost[cell] == kAbsent);
+  }
   /// Makes a ghost cell one with numbers.
   void come_near(std::size_t cell) {
     if (is_ghost(cell)) ghost[cell] = kNear;

@@ -15,9 +15,9 @@ namespace {
 
 State make_size(std::size_t n) {
   State s;
-  s.position.assign((n + kLanes - 1) / kLanes * kPointStride, 0.0);
+  s.position = make_zeros<double>((n + kLanes - 1) / kLanes * kPointStride);
   s.lineage.resize(n);
-  s.volume.resize(n);
+  s.volume = make_zeros<Ramp>(n);
   return s;
 }
 
@@ -90,27 +90,18 @@ State compose(std::span<const SelectedCell<State>> cells) {
 }
 
 std::vector<double> radii_at(const State& s, double time) {
-  std::vector<double> radius;
-  refresh_radii(s, time, radius);
-  return radius;
-}
-
-void refresh_radii(const State& s, double time, std::vector<double>& radius) {
-  radius.resize(s.n_cell());
+  std::vector<double> radius(s.n_cell());
   for_each_index(radius.size(), worth_threads(s.n_row()),
                  [&](std::size_t c) { radius[c] = sphere_radius(s.volume[c].at(time)); });
+  return radius;
 }
 
 std::vector<double> strengths_at(const State& s, double time) {
   std::vector<double> strength;
-  refresh_strengths(s, time, strength);
+  if (std::ranges::all_of(s.strength, [&](const Ramp& r) { return r.at(time) == 1; }))
+    return strength;
+  for (const Ramp& r : s.strength) strength.push_back(r.at(time));
   return strength;
-}
-
-void refresh_strengths(const State& s, double time, std::vector<double>& strength) {
-  strength.clear();
-  if (std::ranges::all_of(s.strength, [&](const Ramp& r) { return r.at(time) == 1; })) return;
-  for (std::size_t c = 0; c < s.n_cell(); ++c) strength.push_back(s.strength[c].at(time));
 }
 
 std::vector<solve::Block> make_blocks(const State& s) {

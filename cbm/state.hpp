@@ -10,6 +10,7 @@
 #include "core/numbers/lanes.hpp"
 #include "core/numbers/ramp.hpp"
 #include "core/parallel/paged_values.hpp"
+#include "core/parallel/row_vector.hpp"
 #include "core/selected_cell.hpp"
 #include "core/vec.hpp"
 #include "solve/system.hpp"
@@ -19,9 +20,9 @@ namespace acinus::cbm {
 /// State of the cells. Cell c stands in lane c % kLanes of row c / kLanes; the tail lanes of the
 /// last row are empty.
 struct State {
-  std::vector<double> position;       ///< [rows][3][lane] um
+  HeldRows<double> position;          ///< [rows][3][lane] um
   std::vector<std::int64_t> lineage;  ///< [n_cell]
-  std::vector<Ramp> volume;           ///< [n_cell] um^3, intrinsic volume
+  HeldRows<Ramp> volume;              ///< [n_cell] um^3, intrinsic volume
   PagedValues<int> type;              ///< [n_cell]
   PagedValues<Ramp> strength;         ///< [n_cell] 0..1, rises after birth; see CellData
   PagedValues<double> young;          ///< [n_cell] kPa
@@ -64,11 +65,9 @@ inline Vec3 center_of(const State& s, std::size_t cell) {
 
 /// Radii from the intrinsic volumes at a time, um.
 std::vector<double> radii_at(const State& state, double time);
-void refresh_radii(const State& state, double time, std::vector<double>& radius);
 
 /// Strengths at a time; empty when all are 1.
 std::vector<double> strengths_at(const State& state, double time);
-void refresh_strengths(const State& state, double time, std::vector<double>& strength);
 
 /// Cell data of the contact search at one time, that of the end of the step.
 struct CellData {

@@ -41,11 +41,14 @@ struct PointGrid {
 };
 
 /// Grid of the spheres; empty (no cells) when they are so scattered that most of it would be.
-PointGrid make_grid(const double* position, std::span<const double> radius, double margin) {
+PointGrid make_grid(const double* position, std::span<const double> radius, double margin,
+                    std::span<const std::uint8_t> ghost) {
+  const auto is_absent = [&](std::size_t i) { return !ghost.empty() && ghost[i] == kAbsentSphere; };
   PointGrid g;
   Box box;
   double largest = 0;
   for (std::size_t i = 0; i < radius.size(); ++i) {
+    if (is_absent(i)) continue;
     box.include(center(position, i));
     largest = std::max(largest, radius[i]);
   }
@@ -63,16 +66,18 @@ PointGrid make_grid(const double* position, std::span<const double> radius, doub
     const auto c = g.cell_of(center(position, i));
     return g.index(c[0], c[1], c[2]);
   };
-  for (std::size_t i = 0; i < radius.size(); ++i) ++g.start[at(i) + 1];
+  for (std::size_t i = 0; i < radius.size(); ++i)
+    if (!is_absent(i)) ++g.start[at(i) + 1];
   for (std::size_t k = 1; k < g.start.size(); ++k) g.start[k] += g.start[k - 1];
-  g.item.resize(radius.size());
+  g.item.resize(g.start.back());
   for (std::size_t i = radius.size(); i-- > 0;) {  // backwards, so that cells hold ascending items
+    if (is_absent(i)) continue;
     const std::size_t c = at(i);
     g.item[--g.start[c + 1]] = static_cast<std::int32_t>(i);
   }
   // what was counted down is each cell's first item, one place too late
   g.start.erase(g.start.begin());
-  g.start.push_back(static_cast<std::uint32_t>(radius.size()));
+  g.start.push_back(static_cast<std::uint32_t>(g.item.size()));
   return g;
 }
 
@@ -89,12 +94,20 @@ void find_sphere_pairs(const double* position, std::span<const double> radius, d
   pairs.clear();
   if (radius.size() < 2) return;
   const auto is_ghost = [&](std::size_t i) { return !ghost.empty() && ghost[i] != 0; };
-  const PointGrid g = make_grid(position, radius, margin);
+  const PointGrid g = make_grid(position, radius, margin, ghost);
   if (g.start.empty()) {
     std::vector<Box> boxes;
-    for (std::size_t i = 0; i < radius.size(); ++i)
+    std::vector<int> sphere;
+    for (std::size_t i = 0; i < radius.size(); ++i) {
+      if (!ghost.empty() && ghost[i] == kAbsentSphere) continue;
       boxes.push_back(sphere_box(center(position, i), radius[i]));
+      sphere.push_back(static_cast<int>(i));
+    }
     pairs = find_pairs(boxes, margin);
+    for (auto& [i, j] : pairs) {
+      i = sphere[static_cast<std::size_t>(i)];
+      j = sphere[static_cast<std::size_t>(j)];
+    }
     std::erase_if(pairs, [&](const auto& p) {
       return (is_ghost(p.first) && is_ghost(p.second)) ||
              !are_near(position, radius, margin, p.first, p.second);

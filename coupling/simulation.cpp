@@ -12,6 +12,7 @@
 #include "coupling/start_up.hpp"
 #include "coupling/step/held_cells.hpp"
 #include "coupling/step/held_contacts.hpp"
+#include "coupling/step/near_cells.hpp"
 #include "coupling/step/workspace_size.hpp"
 #include "coupling/substances/responses.hpp"
 
@@ -55,6 +56,8 @@ void Simulation::release_state() {
   drop_contacts(world_.ranks, world_.state);
   drop_cells(world_.ranks, world_.state);
 }
+
+void Simulation::complete_points() { coupling::complete_points(world_, work_); }
 
 double Simulation::time_to_event(const Observer& observer) const {
   if (!is_running()) return time_to_phase_event(world_);

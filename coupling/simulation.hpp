@@ -50,6 +50,8 @@ class Simulation {
   void complete_state();
   /// Returns the memory of what complete_state() brought.
   void release_state();
+  /// Gives every process the points of all cells, before they are measured. Collective.
+  void complete_points();
 
   /// Advances with all events until `end`, s since t = 0, through start-up if it is not over. A
   /// step that fails at dissolving cells removes them and is repeated.

@@ -42,7 +42,7 @@ class Grouping {
     s.birth.resize(n);
     s.tension.resize(n);
     s.pull.resize(n, Vec3::Zero());
-    s.position.resize(n_row_ * kPointStride);
+    s.position = make_zeros<double>(n_row_ * kPointStride);
     for_each_index(n, worth_threads(n_row_), [&](std::size_t l) {
       if (!s.active(l)) place_points(s, l, [](const Vec3& x) { return x; });
     });

@@ -11,6 +11,7 @@
 
 #include "core/numbers/lanes.hpp"
 #include "core/numbers/ramp.hpp"
+#include "core/parallel/row_vector.hpp"
 #include "core/selected_cell.hpp"
 #include "core/vec.hpp"
 #include "dcm/birth_shape.hpp"
@@ -38,7 +39,7 @@ struct Group {
 
 struct State {
   std::vector<Group> group;
-  std::vector<double> position;  ///< [rows][3][lane] um; empty lanes hold rest icospheres
+  HeldRows<double> position;  ///< [rows][3][lane] um; empty lanes hold rest icospheres
   // Per lane, [n_group * kLanes]:
   std::vector<std::int64_t> lineage;  ///< kEmptyLane where no cell is
   std::vector<Ramp> volume;  ///< um^3, reference volume V0(t); Eq. (18) is its linear growth

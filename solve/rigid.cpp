@@ -248,7 +248,9 @@ class RigidModes {
   /// of the contacts.
   void compute_ties() {
     work_.tie.clear();
-    work_.tie_of_cell.assign(work_.group.size(), -1);
+    set_size(work_.tie_of_cell, work_.group.size());
+    for (const auto& [first, last] : s_.own)
+      std::fill_n(work_.tie_of_cell.data() + first * kLanes, (last - first) * kLanes, -1);
     op_.for_each_external([&](const Stencil& stencil, const auto& l) {
       const std::size_t cell = cell_of(stencil.address[0]);
       const int g = work_.group[cell];

@@ -37,7 +37,7 @@ struct RigidWorkspace {
   std::vector<RigidGroup> groups;
   GroupSums sums;
   std::vector<double> squared_reach;  ///< [group] um^2
-  std::vector<int> tie_of_cell;       ///< [n_block * kLanes] index of tie, -1: none
+  RowVector<int> tie_of_cell;         ///< [n_block * kLanes] of own cells: index of tie, -1: none
   std::vector<Mat6> tie;              ///< resistance of the boundary to the motion of a cell
   RowVector<double> mode;             ///< scratch; free for other use between solves
 };

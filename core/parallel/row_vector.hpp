@@ -8,6 +8,7 @@
 #include <cstring>
 #include <memory>
 #include <new>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -86,7 +87,7 @@ void release_rows(RowVector<T>& v) {
 template <class T>
 RowVector<T> make_zeros(std::size_t n) {
   RowVector<T> v(n);  // new pages are zero
-  if (!v.get_allocator().is_mapped(v.capacity())) v.assign(n, T{0});
+  if (!v.get_allocator().is_mapped(v.capacity())) v.assign(n, T{});
   return v;
 }
 
@@ -96,6 +97,7 @@ class HeldRows : public RowVector<T> {
  public:
   HeldRows() = default;
   HeldRows(RowVector<T>&& rows) : RowVector<T>(std::move(rows)) {}  // NOLINT: it is such a vector
+  explicit HeldRows(std::span<const T> values) : RowVector<T>(values.begin(), values.end()) {}
   HeldRows(HeldRows&&) noexcept = default;
   HeldRows& operator=(HeldRows&&) noexcept = default;
   HeldRows(const HeldRows& o) : RowVector<T>(make_zeros<T>(o.size())) {
@@ -104,20 +106,33 @@ class HeldRows : public RowVector<T> {
     });
   }
   HeldRows& operator=(const HeldRows& o) {
-    if (this != &o) *this = HeldRows(o);
+    if (this == &o) return *this;
+    if (this->size() != o.size()) return *this = HeldRows(o);
+    for_each_run([&](std::size_t k, std::size_t n) {  // equal pages are not written
+      if (std::memcmp(this->data() + k, o.data() + k, n * sizeof(T)) != 0)
+        std::memcpy(this->data() + k, o.data() + k, n * sizeof(T));
+    });
     return *this;
   }
   ~HeldRows() = default;
 
+  /// Resizes as any vector does: unlike set_size() it gives new numbers a value.
+  void resize(std::size_t n, const T& value = T{}) { RowVector<T>::resize(n, value); }
+
   /// Calls f(k, n) for the runs [k, k + n) of a page that are not all zero.
   template <class F>
   void for_each_written(const F& f) const {
-    constexpr std::size_t kRun = 4096 / sizeof(T);
-    constexpr std::array<T, kRun> kZeros{};
-    for (std::size_t k = 0; k < this->size(); k += kRun) {
-      const std::size_t n = std::min(kRun, this->size() - k);
+    constexpr std::array<std::byte, kRun * sizeof(T)> kZeros{};
+    for_each_run([&](std::size_t k, std::size_t n) {
       if (std::memcmp(this->data() + k, kZeros.data(), n * sizeof(T)) != 0) f(k, n);
-    }
+    });
+  }
+
+ private:
+  static constexpr std::size_t kRun = 4096 / sizeof(T);  ///< numbers of a page
+  template <class F>
+  void for_each_run(const F& f) const {
+    for (std::size_t k = 0; k < this->size(); k += kRun) f(k, std::min(kRun, this->size() - k));
   }
 };
 

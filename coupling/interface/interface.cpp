@@ -127,10 +127,15 @@ void find_near(const InterfaceInput& in, double range, dcm::ContactWorkspace& dc
                cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work) {
   work.body.clear();
   work.sphere.clear();
+  work.number.clear();
   for (const contact::SurfaceBody& b : dcm_work.body) work.body.push_back(b.box);
-  for (std::size_t i = 0; i < in.cbm.state.n_cell(); ++i)
+  for (std::size_t i = 0; i < in.cbm.state.n_cell(); ++i) {
+    if (cbm_work.is_absent(i)) continue;
     work.sphere.push_back(sphere_box(cbm::center_of(in.cbm.state, i), in.cbm.cells.radius[i]));
+    work.number.push_back(static_cast<int>(i));
+  }
   contact::find_pairs_between(work.body, work.sphere, range, work.near);
+  for (std::pair<int, int>& p : work.near) p.second = work.number[p.second];
   if (dcm_work.ghost.empty() && cbm_work.ghost.empty()) return;
   std::erase_if(work.near, [&](const std::pair<int, int>& p) {
     return dcm_work.is_ghost_body(p.first) && cbm_work.is_ghost(p.second);
@@ -166,15 +171,17 @@ void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
                     cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work,
                     contact::ContactList& contacts) {
   work.area.clear();
+  work.near.clear();
   contacts.close(contact::ContactKind::kInterface);
   if (dcm_work.body.empty() || in.cbm.state.n_cell() == 0) return;
   const dcm::ContactParams& c = in.dcm.options;
   const std::span<const double> radius = in.dcm.lanes.radius, sphere_radius = in.cbm.cells.radius;
   const bool triangles = c.law == dcm::ContactLaw::kMaugisDugdale;
   double range = triangles ? dcm::triangle_reach(in.dcm) : 0;
-  for (std::size_t k = 0; k < dcm_work.body.size(); ++k)
-    range = std::max(
-        range, dcm::contact_range(c, *dcm_work.body[k].topology, radius[dcm_work.lane_of_body[k]]));
+  const dcm::State& shells = in.dcm.state;  // absent ones too: the range is that of all processes
+  for (std::size_t l = 0; l < shells.n_lane(); ++l)
+    if (shells.active(l))
+      range = std::max(range, dcm::contact_range(c, *shells.group[l / kLanes].topology, radius[l]));
   find_near(in, range, dcm_work, cbm_work, work);
   const auto& pairs = work.near;
   auto& found = work.found;

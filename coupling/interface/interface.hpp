@@ -50,6 +50,7 @@ namespace acinus::coupling {
 /// Scratch of the interface.
 struct InterfaceWorkspace {
   std::vector<Box> body, sphere;
+  std::vector<int> number;                           ///< of the spheres with a box
   std::vector<std::pair<int, int>> near;             ///< candidate pairs: body, sphere
   std::vector<std::vector<contact::Contact>> found;  ///< [pair], capacity may be larger
   std::vector<std::pair<int, double>> area;          ///< (sphere, um^2) of every touching pair

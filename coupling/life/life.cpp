@@ -15,6 +15,7 @@
 #include "coupling/life/mesh_health.hpp"
 #include "coupling/life/rules.hpp"
 #include "coupling/sleep/sleep.hpp"
+#include "coupling/step/near_cells.hpp"
 #include "coupling/step/workspace_size.hpp"
 #include "coupling/subworld/population.hpp"
 #include "coupling/subworld/settle.hpp"
@@ -189,12 +190,15 @@ LifeReport turn_over(World& world, Workspace& work) {
   LifeReport report;
   if (world.state.cycle.empty()) return report;
   State before;
+  if (reads_points(world)) complete_points(world, work);
   if (has_doubled_shell(world.state)) {
+    complete_points(world, work);
     work.linearisation.state = {};  // room for the two states that there are now
     before = world.state;
   }
   Plan plan = make_plan(world, work);
   if (plan.empty()) return report;
+  complete_points(world, work);
   const auto scope = work.timings.scope("life");
   State& s = world.state;
   std::vector<std::uint8_t> gone(s.cycle.size(), 0);
@@ -279,6 +283,7 @@ LifeReport remove_dying(World& world, Workspace& work, std::span<const std::int6
   LifeReport report;
   State& s = world.state;
   if (s.cycle.empty()) return report;
+  complete_points(world, work);
   std::vector<std::uint8_t> gone(s.cycle.size(), 0);
   for_each_cell(s, [&](const Cell& c) {
     const std::int64_t id = lineage_of(s, c);

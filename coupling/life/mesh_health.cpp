@@ -13,6 +13,7 @@
 #include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
 #include "coupling/step/held_cells.hpp"
+#include "coupling/step/near_cells.hpp"
 #include "coupling/step/workspace_size.hpp"
 #include "coupling/subworld/settle.hpp"
 #include "coupling/world/cell.hpp"
@@ -117,11 +118,15 @@ std::string describe(const dcm::Mended& m) {
 
 }  // namespace
 
-std::vector<std::size_t> find_suspicious(const State& s, bool only_young) {
+namespace {
+
+/// Lanes with a suspicious mesh among those that has(lane) accepts.
+template <class Has>
+std::vector<std::size_t> find_suspicious(const State& s, bool only_young, const Has& has) {
   const std::size_t n = s.dcm.n_lane();
   std::vector<std::uint8_t> suspicious(n, 0);
   for_each_index(n, worth_threads(s.dcm.n_row()), [&](std::size_t l) {
-    if (!s.dcm.active(l)) return;
+    if (!s.dcm.active(l) || !has(l)) return;
     if (only_young && s.dcm.birth[l].is_forgotten(s.clock.time)) return;
     thread_local std::vector<Vec3> node;
     dcm::copy_nodes(s.dcm, l, node);
@@ -136,14 +141,33 @@ std::vector<std::size_t> find_suspicious(const State& s, bool only_young) {
   return lanes;
 }
 
+/// Lanes with a suspicious mesh; each process tests the cells whose points it holds.
+std::vector<std::size_t> find_all_suspicious(const World& world, bool only_young) {
+  const State& s = world.state;
+  if (s.near_set == 0) return find_suspicious(s, only_young);
+  const auto is_own = [&](std::size_t l) { return s.cell_holder[l] == world.ranks.rank(); };
+  const std::vector<std::size_t> own = find_suspicious(s, only_young, is_own);
+  std::vector<std::size_t> all;
+  world.ranks.gather<std::size_t>(own, all);
+  std::ranges::sort(all);
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::size_t> find_suspicious(const State& s, bool only_young) {
+  return find_suspicious(s, only_young, [](std::size_t) { return true; });
+}
+
 void mend_meshes(World& world, Workspace& work, LifeReport& report) {
   State& s = world.state;
   if (!world.params.life.remesh) return;
   const Due due = find_due(s, world.params.life.grid);
   if (due == Due::kNone) return;
   const auto scope = work.timings.scope("mesh health");
-  const std::vector<std::size_t> lanes = find_suspicious(s, due == Due::kYoung);
+  const std::vector<std::size_t> lanes = find_all_suspicious(world, due == Due::kYoung);
   if (lanes.empty()) return;
+  complete_points(world, work);
   complete_shapes(world.ranks, lanes, s);
   State before = s;
   std::vector<dcm::Mended> mended(lanes.size());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "core/numbers/random.hpp"
 #include "core/numbers/time_grid.hpp"
@@ -43,6 +44,13 @@ bool applies_any(const LifeParams& p, bool die, const State& s, const Cell& c) {
 bool is_inhibited(const CycleParams& p) { return p.inhibition.by != InhibitedBy::kNothing; }
 bool needs_loads(const CycleParams& p) {
   return p.inhibition.by == InhibitedBy::kPressure || p.inhibition.by == InhibitedBy::kVolume;
+}
+
+/// True if something is updated at every interval of the grid of life.
+bool has_updates(const Params& p) {
+  return !p.life.rule.empty() || p.life.proliferation || has_rule(p.rules, Behaviour::kGrowth) ||
+         has_rule(p.rules, Behaviour::kDeath) || has_measured_signal(p.rules) ||
+         std::ranges::any_of(p.life.type, is_inhibited);
 }
 
 /// Input of contact inhibition, [dcm lanes, then cbm cells]; sleepers included, since they may grow
@@ -107,19 +115,51 @@ void look_at_rules(World& world, Workspace& work, Plan& plan) {
   });
 }
 
+bool is_due_to_divide(const State& s, const Cell& c) {
+  const Cycle& cycle = s.cycle[c.index];
+  return cycle.fate == Fate::kGrow && s.clock.time >= cycle.wait_until && has_doubled(s, c);
+}
+bool is_due_to_go(const State& s, const Cell& c) {
+  return s.cycle[c.index].fate == Fate::kLyse && s.clock.time >= volume_of(s, c).end;
+}
+
+/// Cell that divides or is removed, by its index in [dcm lanes, then cbm cells].
+struct DueCell {
+  std::size_t index = 0;
+  bool divides = false;
+};
+
+/// Adds the spheres of other processes: each knows the clocks of its own. Collective.
+void share_due_spheres(const World& world, std::vector<DueCell>& due) {
+  const auto first = std::ranges::find_if(
+      due, [&](const DueCell& d) { return d.index >= world.state.dcm.n_lane(); });
+  std::vector<DueCell> all;
+  world.ranks.gather<DueCell>(std::span(first, due.end()), all);
+  std::ranges::sort(all, {}, &DueCell::index);
+  due.erase(first, due.end());
+  due.insert(due.end(), all.begin(), all.end());
+}
+
 void look_at_clocks(const World& world, Plan& plan) {
   const State& s = world.state;
-  const double t = s.clock.time;
-  std::vector<std::uint8_t> dies(s.cycle.size(), 0);
+  std::vector<std::uint8_t> dies;
+  if (!plan.empty()) dies.assign(s.cycle.size(), 0);
   for (const std::vector<Cell>* list : {&plan.remove, &plan.lyse})
     for (const Cell& c : *list) dies[c.index] = 1;
+  std::vector<DueCell> due;
   for_each_cell(s, [&](const Cell& c) {
-    if (dies[c.index] != 0) return;  // a rule took it just now: it does not divide any more
-    const Cycle& cycle = s.cycle[c.index];
-    if (cycle.fate == Fate::kGrow && t >= cycle.wait_until && has_doubled(s, c))
-      plan.divide.push_back(c);
-    if (cycle.fate == Fate::kLyse && t >= volume_of(s, c).end) plan.remove.push_back(c);
+    if (!dies.empty() && dies[c.index] != 0)
+      return;  // a rule took it just now: it does not divide any more
+    if (!c.deformable && s.near_set != 0 && s.cell_holder[c.index] != world.ranks.rank()) return;
+    if (const bool divides = is_due_to_divide(s, c); divides || is_due_to_go(s, c))
+      due.push_back({c.index, divides});
   });
+  if (s.near_set != 0 && s.cbm.n_cell() > 0) share_due_spheres(world, due);
+  for (const DueCell& d : due) {
+    const bool deformable = d.index < s.dcm.n_lane();
+    (d.divides ? plan.divide : plan.remove)
+        .push_back({deformable, deformable ? d.index : d.index - s.dcm.n_lane(), d.index});
+  }
 }
 
 }  // namespace
@@ -176,14 +216,14 @@ Plan make_plan(World& world, Workspace& work) {
   return plan;
 }
 
+bool reads_points(const World& world) {
+  return has_updates(world.params) &&
+         grid_interval(time_of(world.state), world.params.life.grid) != world.state.life_interval;
+}
+
 double time_to_life_event(const World& world) {
   const LifeParams& p = world.params.life;
-  const RuleParams& rules = world.params.rules;
-  const bool signalled = has_rule(rules, Behaviour::kGrowth) ||
-                         has_rule(rules, Behaviour::kDeath) || has_measured_signal(rules);
-  if (p.rule.empty() && !p.proliferation && !signalled &&
-      std::ranges::none_of(p.type, is_inhibited))
-    return std::numeric_limits<double>::infinity();
+  if (!has_updates(world.params)) return std::numeric_limits<double>::infinity();
   return time_to_next_interval(time_of(world.state), p.grid);
 }
 

@@ -31,6 +31,9 @@ struct Plan {
   bool empty() const { return divide.empty() && remove.empty() && lyse.empty(); }
 };
 
+/// True if make_plan() reads the points of all cells now.
+bool reads_points(const World& world);
+
 /// Applies rules and inhibition if their time grid was crossed, and lists the cells that have
 /// doubled, died or ended their lysis.
 Plan make_plan(World& world, Workspace& work);

@@ -34,7 +34,7 @@ struct Places {
 
   /// Point of contact: the middle of the overlap of two spheres, the surface of an obstacle.
   void set_arms_of_sphere(const contact::Contact& k, ContactForce& f) const {
-    const std::vector<double>& radius = w.cbm_radius;
+    const std::span<const double> radius = w.cbm_radius;
     const bool pair = k.partner == contact::Partner::kSphere;
     const double depth = pair ? -0.5 * k.gap : -k.gap;
     f.arm_a = -(radius[k.a] - depth) * k.normal;

@@ -13,7 +13,7 @@ std::size_t memory_of_all(const std::vector<std::vector<T>>& lists) {
 }
 
 std::size_t measure_positions(const State& s) {
-  return memory_of(s.dcm.position) + memory_of(s.cbm.position);
+  return memory_of(s.dcm.position) + memory_of(s.cbm.position) + memory_of(s.near);
 }
 
 /// Shapes of birth, tensions of edges, and all that a state has of single cells.
@@ -76,15 +76,14 @@ std::size_t measure_touching(const State& s, const cbm::ContactWorkspace& w) {
 
 /// Sizes, leaders and costs of cells.
 std::size_t measure_cell_work(const Workspace& w) {
-  return memory_of(w.cbm_radius) + memory_of(w.cbm_strength) + memory_of(w.cbm_mother) +
-         memory_of(w.leader) + memory_of(w.forces.dcm) + memory_of(w.medium_friction.dcm) +
+  return memory_of(w.leader) + memory_of(w.forces.dcm) + memory_of(w.medium_friction.dcm) +
          memory_of(w.cost.of_cell);
 }
 
 std::size_t measure_numbering(const Workspace& w) {
   return memory_of(w.system.block) + memory_of(w.system.block_of_row) +
          memory_of(w.system.ownership.owner) + memory_of(w.active) + memory_of(w.rigid.group) +
-         memory_of(w.rigid.tie_of_cell);
+         memory_of(w.near.box) + memory_of(w.near.send) + memory_of(w.near.receive);
 }
 
 }  // namespace

@@ -104,13 +104,15 @@ struct Moves {
   static constexpr auto kNone = static_cast<std::size_t>(-1);
   double largest = 0, excess = 0;  ///< um; displacement over its limit
   std::size_t infinite = kNone, too_far = kNone, turned = kNone;  ///< lanes; too_far if excess > 1
-  double distance = 0;  ///< um, displacement of the lane too_far
+  double distance = 0;       ///< um, displacement of the lane too_far
+  std::int64_t n_whole = 0;  ///< cells beyond their limit that may move as a whole
 
   /// Merges two parts; the result does not depend on their order.
   void add(const Moves& o) {
     largest = std::max(largest, o.largest);
     infinite = std::min(infinite, o.infinite);
     turned = std::min(turned, o.turned);
+    n_whole += o.n_whole;
     if (o.excess > excess || (o.excess == excess && o.too_far < too_far)) {
       excess = o.excess;
       too_far = o.too_far;
@@ -119,29 +121,65 @@ struct Moves {
   }
 };
 
-/// Largest displacement of a node relative to its cell, um, if the cell as a whole is clear of
-/// others: a cell in liquid may be displaced any distance in a step. Else the largest displacement.
-double largest_deformation(const World& world, const Workspace& w, std::size_t lane, Address first,
-                           int n_point, double largest) {
+/// Deformable cell beyond its limit of displacement. A cell in liquid may be displaced any distance
+/// in a step: what counts is its deformation.
+struct WholeCell {
+  MovedCell moved;
+  Address first = 0;  ///< point
+  int n_point = 0;
+  double limit = 0;  ///< um
+};
+
+/// Moves of the cells of a block.
+struct BlockMoves {
+  Moves moves;
+  std::vector<WholeCell> whole;
+};
+
+/// Largest displacement of a node relative to its cell, um.
+double largest_deformation(const Workspace& w, const WholeCell& cell) {
   const auto move = [&](int i) {
-    return load_point(w.move.data(), first + static_cast<Address>(i * kPointStride));
+    return load_point(w.move.data(), cell.first + static_cast<Address>(i * kPointStride));
   };
   Vec3 mean = Vec3::Zero();
-  for (int i = 0; i < n_point; ++i) mean += move(i) / n_point;
-  const auto body = std::ranges::lower_bound(w.dcm.lane_of_body, lane);
-  if (!is_clear(world, w, static_cast<std::size_t>(body - w.dcm.lane_of_body.begin()), largest))
-    return largest;
+  for (int i = 0; i < cell.n_point; ++i) mean += move(i) / cell.n_point;
   double deformation = 0;
-  for (int i = 0; i < n_point; ++i) deformation = std::max(deformation, (move(i) - mean).norm());
+  for (int i = 0; i < cell.n_point; ++i)
+    deformation = std::max(deformation, (move(i) - mean).norm());
   return deformation;
+}
+
+Moves gather_moves(const Workspace& w, const Moves& own) {
+  if (w.system.ownership.is_whole()) return own;
+  std::vector<Moves> moves;
+  w.system.ownership.ranks.gather<Moves>(std::span(&own, 1), moves);
+  Moves all;
+  for (const Moves& m : moves) all.add(m);
+  return all;
+}
+
+/// Adds the displacements of cells that may move as a whole. Collective.
+void add_whole_cells(const World& world, const Workspace& w, std::span<const WholeCell> cells,
+                     Moves& own) {
+  std::vector<MovedCell> moved;
+  for (const WholeCell& c : cells) moved.push_back(c.moved);
+  const std::vector<std::uint8_t> clear = find_clear(world, w, moved);
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    Moves m;
+    m.too_far = moved[k].lane;
+    m.distance = clear[k] != 0 ? largest_deformation(w, cells[k]) : moved[k].distance;
+    m.excess = m.distance / cells[k].limit;
+    own.add(m);
+  }
 }
 
 Moves reduce_moves(const World& world, const Workspace& w) {
   const State& s = world.state;
-  Moves own_cells, all_cells;
-  for_each_own_cell<Moves>(
+  Moves own_cells;
+  std::vector<WholeCell> whole;
+  for_each_own_cell<BlockMoves>(
       w, true,
-      [&](std::size_t lane, Address first, int n_point, Moves& part) {
+      [&](std::size_t lane, Address first, int n_point, BlockMoves& part) {
         double largest2 = 0;
         bool finite = true;
         for (int i = 0; i < n_point; ++i) {
@@ -163,20 +201,25 @@ Moves reduce_moves(const World& world, const Workspace& w) {
         own.largest = largest;
         if (!finite) own.infinite = lane;
         const double limit = move_limit(world.params.numerics.max_move, edge);
-        own.too_far = lane;
-        own.distance = finite && deformable && largest > limit
-                           ? largest_deformation(world, w, lane, first, n_point, largest)
-                           : largest;
-        own.excess = own.distance / limit;
+        if (finite && deformable && largest > limit) {
+          part.whole.push_back({{lane, largest}, first, n_point, limit});
+          own.n_whole = 1;
+        } else {
+          own.too_far = lane;
+          own.distance = largest;
+          own.excess = own.distance / limit;
+        }
         if (finite && deformable && turns_over(s.dcm, lane, w.move)) own.turned = lane;
-        part.add(own);
+        part.moves.add(own);
       },
-      [&](const Moves& part) { own_cells.add(part); });
-  if (w.system.ownership.is_whole()) return own_cells;
-  std::vector<Moves> moves;
-  w.system.ownership.ranks.gather<Moves>(std::span(&own_cells, 1), moves);
-  for (const Moves& m : moves) all_cells.add(m);
-  return all_cells;
+      [&](const BlockMoves& part) {
+        own_cells.add(part.moves);
+        whole.insert(whole.end(), part.whole.begin(), part.whole.end());
+      });
+  const Moves all = gather_moves(w, own_cells);
+  if (all.n_whole == 0) return all;
+  add_whole_cells(world, w, whole, own_cells);
+  return gather_moves(w, own_cells);
 }
 
 /// Depth of a contact at the end of a step, um; 0 if acceptable. With repulsion in the matrix the
@@ -198,8 +241,9 @@ double depth_after(const World& world, const Workspace& w, std::size_t l) {
 
 /// Contact that ends too deep.
 struct DeepContact {
-  std::array<int, 3> place{};  ///< key in the list of contacts: kind, and the two sides
-  std::size_t a = 0, b = 0;    ///< lanes; equal: with boundary or its own nucleus
+  /// Key in the list of contacts: kind, and the lanes or numbers of the two sides.
+  std::array<std::size_t, 3> place{};
+  std::size_t a = 0, b = 0;  ///< lanes; equal: with boundary or its own nucleus
   bool inner = false, pair = false;
   double depth = 0;  ///< um
 };
@@ -217,7 +261,13 @@ DeepContact describe_contact(const World& world, const Workspace& w, std::size_t
   deep.depth = depth_after(world, w, l);
   const bool of_cells =
       kind == contact::ContactKind::kSurface || kind == contact::ContactKind::kInterface;
-  deep.place = {static_cast<int>(kind), k.a, of_cells ? k.b : 0};
+  const auto lane = [&](int body) { return w.dcm.lane_of_body[static_cast<std::size_t>(body)]; };
+  const auto a = static_cast<std::size_t>(k.a), b = static_cast<std::size_t>(k.b);
+  deep.place = {static_cast<std::size_t>(kind),
+                kind == contact::ContactKind::kSphereObstacle ? a : lane(k.a),
+                !of_cells                                 ? 0
+                : k.partner == contact::Partner::kSurface ? lane(k.b)
+                                                          : b};
   return deep;
 }
 

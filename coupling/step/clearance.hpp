@@ -1,16 +1,27 @@
 #pragma once
-/// Clearance of a cell for rigid displacement.
+/// Clearance of cells for rigid displacement.
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 
-/// True if nothing comes within contact range of a deformable cell displaced by `distance`, um, in
-/// any direction, even if all others move as far.
-/// @param body  index in work.dcm.body
-bool is_clear(const World& world, const Workspace& work, std::size_t body, double distance);
+/// Own deformable cell that moves as a whole.
+struct MovedCell {
+  std::size_t lane = 0;
+  double distance = 0;  ///< um
+};
+
+/// Tests that nothing comes within contact range of a cell displaced by its distance in any
+/// direction, even if all others move as far. Each process tests its own cells. Collective where
+/// the work is shared.
+/// @return [cell] 1: nothing does
+std::vector<std::uint8_t> find_clear(const World& world, const Workspace& work,
+                                     std::span<const MovedCell> cells);
 
 }  // namespace acinus::coupling

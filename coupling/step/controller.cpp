@@ -14,6 +14,7 @@
 #include "coupling/step/held_cells.hpp"
 #include "coupling/step/held_contacts.hpp"
 #include "coupling/step/move_points.hpp"
+#include "coupling/step/near_cells.hpp"
 #include "coupling/step/shorten.hpp"
 #include "coupling/step/step.hpp"
 #include "dcm/tensions.hpp"
@@ -58,17 +59,19 @@ void record_balance(const World& world, Workspace& w, Balance& largest) {
   largest.friction_torque = std::max(largest.friction_torque, b.friction_torque);
 }
 
-/// Moves the points of all processes and keeps their displacements, or those of own cells.
+/// Moves the points of all processes, or own and near ones, and keeps the displacements of all or
+/// of own cells.
 void move_all_points(World& world, const Workspace& w) {
   State& s = world.state;
-  const bool keeps_all = s.cell_holder.empty();
-  if (keeps_all) set_size(s.last_move, w.move.size());
+  if (!s.cell_holder.empty()) {
+    move_present_points(w, w.move, s);
+    return keep_own_moves(w, s);
+  }
+  set_size(s.last_move, w.move.size());
   stream_rows(w.system, w.move, [&](std::size_t first, std::span<const double> move) {
     move_points(s, first, move);
-    if (keeps_all)
-      for_each_number(move.size(), [&](std::size_t k) { s.last_move[first + k] = move[k]; });
+    for_each_number(move.size(), [&](std::size_t k) { s.last_move[first + k] = move[k]; });
   });
-  if (!keeps_all) keep_own_moves(w, s);
 }
 
 void commit(double step, const Effort& effort, World& world, Workspace& w) {
@@ -98,6 +101,7 @@ StepResult take_step(World& world, Workspace& w, double limit) {
   const Numerics& n = world.params.numerics;
   hand_over_contacts(world.ranks, w, s);
   hand_over_cells(world, w);
+  refresh_near_cells(world, w);
   StepResult result;
   Effort effort;
   w.failed_solves = 0;

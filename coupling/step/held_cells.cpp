@@ -1,7 +1,8 @@
 #include "coupling/step/held_cells.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "coupling/step/ghost_cells.hpp"
@@ -14,27 +15,86 @@ std::size_t count_lanes(const State& s) { return s.dcm.n_lane() + s.cbm.n_row() 
 
 bool has_moves(const State& s) { return s.last_move.size() == count_unknowns(s); }
 
-/// Points of a lane.
-int points_of(const State& s, std::size_t lane) {
-  return lane < s.dcm.n_lane() ? s.dcm.group[lane / kLanes].n_point() : 1;
+double& number_of(State& s, std::size_t k) { return *position_of(s, static_cast<Address>(k)); }
+double number_of(const State& s, std::size_t k) { return *position_of(s, static_cast<Address>(k)); }
+
+/// Parts of a cell that are sent together. `near`: those that near processes have too.
+struct CellParts {
+  bool moves = false, near = false, shapes = false;
+};
+CellParts all_parts(const State& s) { return {has_moves(s), s.near_set != 0, true}; }
+
+/// Number of a lane's sphere; none for a lane of a deformable cell, or without a cell.
+std::optional<std::size_t> sphere_of(const State& s, std::size_t lane) {
+  const std::size_t c = lane - s.dcm.n_lane();
+  return lane >= s.dcm.n_lane() && c < s.cbm.n_cell() ? std::optional(c) : std::nullopt;
 }
 
-/// Calls f(k) for the indices k of a lane's numbers in vectors [n_row][3][lane].
-template <class F>
-void for_each_number_of(const State& s, std::size_t lane, const F& f) {
-  const std::size_t first = lane < s.dcm.n_lane()
-                                ? dcm::node_address(s.dcm, lane, 0)
-                                : cbm::cell_address(s.dcm.n_row(), lane - s.dcm.n_lane());
-  const auto n = static_cast<std::size_t>(points_of(s, lane));
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t m = 0; m < 3; ++m) f(first + i * kPointStride + m * kLanes);
+void put_ramp(const Ramp& r, std::vector<double>& out) {
+  out.insert(out.end(), {r.from, r.to, r.start, r.end});
+}
+Ramp get_ramp(const double*& from) {
+  const Ramp r{from[0], from[1], from[2], from[3]};
+  from += 4;
+  return r;
 }
 
-/// Appends what only the holder of a cell has: lengths and numbers of its shape of birth, after its
-/// last move if that is wanted.
-void pack(const State& s, std::size_t lane, bool moves, std::vector<double>& out) {
-  if (moves) for_each_number_of(s, lane, [&](std::size_t k) { out.push_back(s.last_move[k]); });
-  if (lane >= s.dcm.n_lane()) return;
+void put_cycle(const Cycle& c, std::vector<double>& out) {
+  out.insert(out.end(),
+             {static_cast<double>(c.parent), static_cast<double>(c.founder),
+              static_cast<double>(c.fate), c.birth, c.birth_volume, c.duration, c.wait_until});
+}
+Cycle get_cycle(const double*& from) {
+  const Cycle c{static_cast<std::int64_t>(from[0]),
+                static_cast<std::int64_t>(from[1]),
+                static_cast<Fate>(static_cast<int>(from[2])),
+                from[3],
+                from[4],
+                from[5],
+                from[6]};
+  from += 7;
+  return c;
+}
+
+}  // namespace
+
+std::size_t count_near_numbers(const State& s, std::size_t lane) {
+  constexpr std::size_t kConstants = 9, kOfCycle = 7;
+  const std::size_t points = 3 * static_cast<std::size_t>(points_of(s, lane));
+  if (!sphere_of(s, lane)) return points;
+  return points + kConstants + (s.cycle.empty() ? 0 : kOfCycle);
+}
+
+void pack_near(const State& s, std::size_t lane, std::vector<double>& out) {
+  for_each_number_of(s, lane, [&](std::size_t k) { out.push_back(number_of(s, k)); });
+  const std::optional<std::size_t> c = sphere_of(s, lane);
+  if (!c) return;
+  put_ramp(s.cbm.volume[*c], out);
+  put_ramp(s.cbm.strength[*c], out);
+  out.push_back(s.cbm.young[*c]);
+  if (!s.cycle.empty()) put_cycle(s.cycle[lane], out);
+}
+
+const double* unpack_near(const double* from, std::size_t lane, State& s) {
+  for_each_number_of(s, lane, [&](std::size_t k) { number_of(s, k) = *from++; });
+  const std::optional<std::size_t> c = sphere_of(s, lane);
+  if (!c) return from;
+  s.cbm.volume[*c] = get_ramp(from);
+  s.cbm.strength.set(*c, get_ramp(from));
+  s.cbm.young.set(*c, *from++);
+  if (!s.cycle.empty()) s.cycle[lane] = get_cycle(from);
+  return from;
+}
+
+namespace {
+
+/// Appends what only the holder of a cell has: its last move, what near processes have, lengths and
+/// numbers of its shape of birth.
+void pack(const State& s, std::size_t lane, const CellParts& parts, std::vector<double>& out) {
+  if (parts.moves)
+    for_each_number_of(s, lane, [&](std::size_t k) { out.push_back(s.last_move[k]); });
+  if (parts.near) pack_near(s, lane, out);
+  if (!parts.shapes || lane >= s.dcm.n_lane()) return;
   const dcm::BirthShape& b = s.dcm.birth[lane];
   for (const SharedNumbers* v : {&b.edge, &b.triangle, &b.link}) {
     out.push_back(static_cast<double>(v->size()));
@@ -43,9 +103,11 @@ void pack(const State& s, std::size_t lane, bool moves, std::vector<double>& out
 }
 
 /// Reads what pack() wrote.   @return end of it
-const double* unpack(const double* from, std::size_t lane, State& s, RowVector<double>* moves) {
-  if (moves != nullptr) for_each_number_of(s, lane, [&](std::size_t k) { (*moves)[k] = *from++; });
-  if (lane >= s.dcm.n_lane()) return from;
+const double* unpack(const double* from, std::size_t lane, const CellParts& parts, State& s,
+                     RowVector<double>& moves) {
+  if (parts.moves) for_each_number_of(s, lane, [&](std::size_t k) { moves[k] = *from++; });
+  if (parts.near) from = unpack_near(from, lane, s);
+  if (!parts.shapes || lane >= s.dcm.n_lane()) return from;
   dcm::BirthShape& b = s.dcm.birth[lane];
   for (SharedNumbers* v : {&b.edge, &b.triangle, &b.link}) {
     const auto n = static_cast<std::size_t>(*from++);
@@ -64,12 +126,12 @@ void forget_shape(State& s, std::size_t lane) {
 enum class Where { kRoot, kEverywhere };
 
 /// Gathers these cells at the root or on every process.
-void gather_cells(const Ranks& ranks, Where where, std::span<const std::size_t> lanes, bool moves,
-                  State& s) {
+void gather_cells(const Ranks& ranks, Where where, std::span<const std::size_t> lanes,
+                  const CellParts& parts, State& s) {
   std::vector<double> own, all;
   std::vector<std::size_t> start;
   for (const std::size_t lane : lanes)
-    if (s.cell_holder[lane] == ranks.rank()) pack(s, lane, moves, own);
+    if (s.cell_holder[lane] == ranks.rank()) pack(s, lane, parts, own);
   if (where == Where::kEverywhere)
     ranks.gather<double>(own, all, &start);
   else
@@ -81,7 +143,7 @@ void gather_cells(const Ranks& ranks, Where where, std::span<const std::size_t> 
     const int holder = s.cell_holder[lane];
     if (holder == kEverywhere || holder == ranks.rank()) continue;
     const double*& from = next[static_cast<std::size_t>(holder)];
-    from = unpack(from, lane, s, moves ? &s.last_move : nullptr);
+    from = unpack(from, lane, parts, s, s.last_move);
   }
 }
 
@@ -90,9 +152,9 @@ struct Handover {
   std::vector<std::size_t> send, receive;
 };
 
-/// Sends and receives cells; the moves of those that come go into `moves` if it is not null.
-void send_cells(const Ranks& ranks, const std::vector<Handover>& with, State& s,
-                RowVector<double>* moves) {
+/// Sends and receives cells; the moves of those that come go into `moves`.
+void send_cells(const Ranks& ranks, const std::vector<Handover>& with, const CellParts& parts,
+                State& s, RowVector<double>& moves) {
   ExchangePlan lengths, plan;
   std::vector<double> out, n_out, n_in;
   for (std::size_t rank = 0; rank < with.size(); ++rank) {
@@ -100,7 +162,7 @@ void send_cells(const Ranks& ranks, const std::vector<Handover>& with, State& s,
     if (send.empty() && receive.empty()) continue;
     const int peer = static_cast<int>(rank);
     const std::size_t first = out.size();
-    for (const std::size_t lane : send) pack(s, lane, moves != nullptr, out);
+    for (const std::size_t lane : send) pack(s, lane, parts, out);
     plan.peer.push_back({peer, first, out.size(), 0, 0});
     const std::size_t n_sent = n_out.size(), n_got = n_in.size();
     if (!send.empty()) n_out.push_back(static_cast<double>(out.size() - first));
@@ -119,7 +181,7 @@ void send_cells(const Ranks& ranks, const std::vector<Handover>& with, State& s,
   ranks.exchange<double>(plan, out, in);
   const double* from = in.data();
   for (const Handover& h : with)
-    for (const std::size_t lane : h.receive) from = unpack(from, lane, s, moves);
+    for (const std::size_t lane : h.receive) from = unpack(from, lane, parts, s, moves);
 }
 
 bool are_with_owners(const Workspace& w, const State& s) {
@@ -146,6 +208,7 @@ void hand_over_cells(World& world, const Workspace& w) {
   State& s = world.state;
   if (keeps_all(world, w)) return complete_cells(world.ranks, s);
   if (are_with_owners(w, s)) return;
+  complete_near(world.ranks, s);
   const int self = world.ranks.rank();
   std::vector<Handover> with(static_cast<std::size_t>(world.ranks.size()));
   if (s.cell_holder.empty())
@@ -161,7 +224,7 @@ void hand_over_cells(World& world, const Workspace& w) {
     else if (from == self && to != self)
       with[static_cast<std::size_t>(to)].send.push_back(lane);
   }
-  send_cells(world.ranks, with, s, moves ? &own : nullptr);
+  send_cells(world.ranks, with, {.moves = moves, .shapes = true}, s, own);
   s.cell_holder = {count_lanes(s), [&](std::size_t lane) { return owner_of_lane(w, lane); }};
   for (std::size_t lane = 0; lane < s.dcm.n_lane(); ++lane)
     if (s.cell_holder[lane] != self) forget_shape(s, lane);
@@ -171,7 +234,7 @@ void hand_over_cells(World& world, const Workspace& w) {
 namespace {
 
 /// Gathers all cells, a part at a time.
-void gather_all(const Ranks& ranks, Where where, State& s) {
+void gather_all(const Ranks& ranks, Where where, const CellParts& parts, State& s) {
   constexpr std::size_t kMostPoints = 100'000;  // at a time: some 6 MB
   std::vector<std::size_t> lanes;
   std::size_t n = 0;
@@ -179,7 +242,7 @@ void gather_all(const Ranks& ranks, Where where, State& s) {
     lanes.push_back(lane);
     n += static_cast<std::size_t>(points_of(s, lane));
     if (n < kMostPoints && lane + 1 < s.cell_holder.size()) continue;
-    gather_cells(ranks, where, lanes, has_moves(s), s);
+    gather_cells(ranks, where, lanes, parts, s);
     lanes.clear();
     n = 0;
   }
@@ -187,12 +250,59 @@ void gather_all(const Ranks& ranks, Where where, State& s) {
 
 }  // namespace
 
-void complete_cells(const Ranks& ranks, State& s) {
-  gather_all(ranks, Where::kEverywhere, s);
-  s.cell_holder.clear();
+void complete_near(const Ranks& ranks, State& s) {
+  if (s.near_set == 0) return;
+  gather_all(ranks, Where::kEverywhere, {.near = true}, s);
+  s.near_set = 0;
+  s.near.clear();
 }
 
-void bring_cells_to_root(const Ranks& ranks, State& s) { gather_all(ranks, Where::kRoot, s); }
+void drop_far(const Ranks& ranks, State& s, bool poison) {
+  const std::size_t n_lane = s.cell_holder.size(), n_dcm = s.dcm.position.size();
+  const double nothing = poison ? std::numeric_limits<double>::quiet_NaN() : 0;
+  std::vector<std::uint8_t> stays(n_lane, 0);
+  for (std::size_t lane = 0; lane < n_lane; ++lane)
+    if (const int holder = s.cell_holder[lane]; holder == ranks.rank() || holder == kEverywhere)
+      stays[lane] = 1;
+  for (const std::size_t lane : s.near) stays[lane] = 1;
+
+  HeldRows<double> dcm = make_zeros<double>(n_dcm), cbm = make_zeros<double>(s.cbm.position.size());
+  for (std::size_t lane = 0; lane < n_lane; ++lane)
+    if (stays[lane] != 0 || poison)
+      for_each_number_of(s, lane, [&](std::size_t k) {
+        (k < n_dcm ? dcm[k] : cbm[k - n_dcm]) = stays[lane] != 0 ? number_of(s, k) : nothing;
+      });
+  s.dcm.position = std::move(dcm);
+  s.cbm.position = std::move(cbm);
+
+  const std::size_t first = s.dcm.n_lane(), n = s.cbm.n_cell();
+  HeldRows<Ramp> volume = make_zeros<Ramp>(n);
+  for (std::size_t c = 0; c < n; ++c)
+    if (stays[first + c] != 0 || poison)
+      volume[c] = stays[first + c] != 0 ? s.cbm.volume[c] : Ramp::constant(nothing);
+  s.cbm.volume = std::move(volume);
+  const auto keep = [&](auto& values, const auto& absent) {
+    values = {n, [&](std::size_t c) { return stays[first + c] != 0 ? values[c] : absent; }};
+  };
+  keep(s.cbm.strength, Ramp::constant(poison ? nothing : 1));
+  keep(s.cbm.young, nothing);
+  if (s.cycle.empty()) return;
+  HeldRows<Cycle> cycle = make_zeros<Cycle>(s.cycle.size());
+  for (std::size_t lane = 0; lane < s.cycle.size(); ++lane)
+    if (lane < first || stays[lane] != 0) cycle[lane] = s.cycle[lane];
+  s.cycle = std::move(cycle);
+}
+
+void complete_cells(const Ranks& ranks, State& s) {
+  gather_all(ranks, Where::kEverywhere, all_parts(s), s);
+  s.cell_holder.clear();
+  s.near_set = 0;
+  s.near.clear();
+}
+
+void bring_cells_to_root(const Ranks& ranks, State& s) {
+  gather_all(ranks, Where::kRoot, all_parts(s), s);
+}
 
 void drop_cells(const Ranks& ranks, State& s) {
   if (s.cell_holder.empty()) return;
@@ -203,10 +313,11 @@ void drop_cells(const Ranks& ranks, State& s) {
     else if (has_moves(s))
       for_each_number_of(s, lane, [&](std::size_t k) { own[k] = s.last_move[k]; });
   s.last_move = std::move(own);
+  if (s.near_set != 0) drop_far(ranks, s, false);
 }
 
 void complete_shapes(const Ranks& ranks, std::span<const std::size_t> lanes, State& s) {
-  if (!s.cell_holder.empty()) gather_cells(ranks, Where::kEverywhere, lanes, false, s);
+  if (!s.cell_holder.empty()) gather_cells(ranks, Where::kEverywhere, lanes, {.shapes = true}, s);
 }
 
 }  // namespace acinus::coupling

@@ -1,14 +1,32 @@
 #pragma once
-/// Last moves and shapes of birth, which with several processes are with the owners of the cells:
-/// State::cell_holder names them. Numbers of others are zero, or not there.
+/// Last moves, shapes of birth and points of cells, which with several processes are with the
+/// owners of the cells: State::cell_holder names them. Numbers of others are zero, or not there.
+/// Points are with near processes too (near_cells.hpp).
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
+
+/// Points of a lane; lanes count [dcm lanes, then those of the rows of spheres].
+inline int points_of(const State& s, std::size_t lane) {
+  return lane < s.dcm.n_lane() ? s.dcm.group[lane / kLanes].n_point() : 1;
+}
+
+/// Calls f(k) for the indices k of a lane's numbers in vectors [n_row][3][lane].
+template <class F>
+void for_each_number_of(const State& s, std::size_t lane, const F& f) {
+  const std::size_t first = lane < s.dcm.n_lane()
+                                ? dcm::node_address(s.dcm, lane, 0)
+                                : cbm::cell_address(s.dcm.n_row(), lane - s.dcm.n_lane());
+  const auto n = static_cast<std::size_t>(points_of(s, lane));
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t m = 0; m < 3; ++m) f(first + i * kPointStride + m * kLanes);
+}
 
 /// Keeps the displacements of own cells in a step, work.move: all that State::last_move holds
 /// where cells have holders.
@@ -18,6 +36,18 @@ void keep_own_moves(const Workspace& work, State& state);
 /// all if it does all work, if cells are constrained, and with explicit Euler. Collective.
 /// @pre the blocks of the system are those of the state
 void hand_over_cells(World& world, const Workspace& work);
+
+/// Numbers of a cell that near processes have.
+std::size_t count_near_numbers(const State& state, std::size_t lane);
+void pack_near(const State& state, std::size_t lane, std::vector<double>& out);
+/// Reads what pack_near() wrote.   @return end of it
+const double* unpack_near(const double* from, std::size_t lane, State& state);
+
+/// Gathers them of all cells on every process. Collective.
+void complete_near(const Ranks& ranks, State& state);
+/// Returns the memory of those of cells that are neither own nor near.
+/// @param poison  true: they become NaN instead, to test that no result depends on them
+void drop_far(const Ranks& ranks, State& state, bool poison);
 
 /// Gathers all cells on every process: before they are read as a whole. Collective.
 void complete_cells(const Ranks& ranks, State& state);

@@ -9,6 +9,7 @@
 #include "coupling/migration/migration.hpp"
 #include "coupling/step/constrained_points.hpp"
 #include "coupling/step/move_points.hpp"
+#include "coupling/step/near_cells.hpp"
 #include "coupling/world/cell.hpp"
 
 namespace acinus::coupling {
@@ -75,13 +76,10 @@ const State& choose_linearisation_point(const World& world, double step, bool fi
   // F and K belong to compatible shapes.
   if (!point.moves_all) return s;
   static_cast<PresentState&>(point.state) = s;
-  if (w.constraint.applies() || w.system.ownership.is_whole()) {
+  if (w.constraint.applies() || w.system.ownership.is_whole())
     move_points(point.state, point.move);
-  } else {  // near cells of other processes move too
-    solve::stream_rows(w.system, point.move, [&](std::size_t first, std::span<const double> move) {
-      move_points(point.state, first, move);
-    });
-  }
+  else
+    move_present_points(w, point.move, point.state);
   return point.state;
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 /// Adds those of the numbers first, first + 1 ... that belong to x, which begins at number `begin`.
 void add_overlap(std::size_t first, std::span<const double> by, std::size_t begin,
-                 std::vector<double>& x) {
+                 std::span<double> x) {
   const std::size_t from = std::max(first, begin),
                     to = std::min(first + by.size(), begin + x.size());
   if (from < to)

@@ -12,8 +12,8 @@ namespace acinus::coupling {
 namespace {
 
 /// Value of a cell in another state, or a default where that state has none.
-template <class T>
-T value_of(const std::vector<T>& values, std::size_t index, T otherwise) {
+template <class Values, class T>
+T value_of(const Values& values, std::size_t index, T otherwise) {
   return index < values.size() ? values[index] : otherwise;
 }
 

@@ -142,7 +142,7 @@ struct PresentState {
   std::int64_t leader_interval = -1;  ///< grid interval of the last choice of leaders
   std::vector<std::uint8_t> asleep;   ///< [dcm lanes, then cbm cells] 1: sleeps; empty: none
   std::int64_t sleep_interval = -1;   ///< grid interval of the last update of sleep
-  std::vector<Cycle> cycle;           ///< [dcm lanes, then cbm cells]; empty: nothing grows
+  HeldRows<Cycle> cycle;              ///< [dcm lanes, then cbm cells]; empty: nothing grows
   std::int64_t life_interval = -1;    ///< grid interval of the last update of the rules of life
   std::int64_t next_lineage = 0;      ///< lineage of the next daughter
   std::int64_t divisions = 0, deaths = 0;
@@ -158,6 +158,12 @@ struct PresentState {
   /// [dcm lanes, then cbm cells] factor on the adhesion energy of a cell, written before each step
   /// and constant in it; that of a pair is the geometric mean. Empty: all 1
   std::vector<double> adhesion;
+  /// Set of near cells on all processes: a process has the points, and of spheres volume, strength,
+  /// modulus and cycle, of its own cells and of near ones only. 0: every process has those of all,
+  /// as in a checkpoint. See step/near_cells.hpp
+  std::int64_t near_set = 0;
+  /// [near cell] lanes of all rows of cells, ascending
+  std::vector<std::size_t> near;
 };
 
 /// State of the world: exactly the contents of a checkpoint.

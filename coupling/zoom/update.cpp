@@ -16,6 +16,7 @@
 #include "coupling/migration/fading.hpp"
 #include "coupling/step/held_cells.hpp"
 #include "coupling/step/held_contacts.hpp"
+#include "coupling/step/near_cells.hpp"
 #include "coupling/step/workspace_size.hpp"
 #include "coupling/subworld/population.hpp"
 #include "coupling/subworld/settle.hpp"
@@ -231,6 +232,7 @@ ZoomReport update_zoom(World& world, Workspace& work) {
   State& s = world.state;
   if (!is_due(s, world.params.zoom)) return report;
   const auto scope = work.timings.scope("zoom");
+  complete_points(world, work);
   forget_faded(s);
   std::vector<double> pressure;
   if (zoom_needs_pressure(world.params.zoom)) pressure = observe_pressures(world, work);

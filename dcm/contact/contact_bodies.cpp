@@ -22,11 +22,12 @@ void release_body(contact::SurfaceBody& b) {
 
 void refresh_bodies(const State& state, ContactWorkspace& work) {
   std::size_t n = 0;
-  for (std::size_t l = 0; l < state.n_lane(); ++l) n += state.active(l) ? 1 : 0;
+  const auto is_body = [&](std::size_t l) { return state.active(l) && !work.is_absent(l); };
+  for (std::size_t l = 0; l < state.n_lane(); ++l) n += is_body(l) ? 1 : 0;
   if (work.lane_of_body.size() != n) {
     work.lane_of_body.clear();
     for (std::size_t l = 0; l < state.n_lane(); ++l)
-      if (state.active(l)) work.lane_of_body.push_back(l);
+      if (is_body(l)) work.lane_of_body.push_back(l);
   }
   work.body.resize(n);
   if (work.is_complete.size() != n) work.is_complete.assign(n, 0);

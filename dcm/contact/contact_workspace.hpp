@@ -38,14 +38,17 @@ struct TriangleContactWorkspace {
   std::vector<std::vector<contact::Contact>> found;          ///< [pair of bodies]
 };
 
-/// Scratch of the contact search. Bodies are the cells in lane order, empty lanes left out.
+/// Scratch of the contact search. Bodies are the cells in lane order, empty lanes and absent cells
+/// left out.
 struct ContactWorkspace {
   std::vector<std::uint8_t>
       constrained;  ///< [n_lane] 1: does not move; empty: all move. Set by the caller
   /// [n_lane] 1: ghost cell, computed by another process; empty: none. Set by the caller. Pairs of
   /// two ghost cells are not searched; of a ghost cell only the contacts with own cells are known.
+  /// kAbsent: ghost cell without known points, which is no body.
   std::vector<std::uint8_t> ghost;
-  std::vector<std::size_t> lane_of_body;  ///< written by: refresh_bodies
+  /// Written by: refresh_bodies. The caller clears it when absent cells change.
+  std::vector<std::size_t> lane_of_body;
   /// Boxes of all bodies; the other members of own bodies and of those given to complete_bodies.
   /// Written by: refresh_bodies
   std::vector<contact::SurfaceBody> body;
@@ -68,6 +71,8 @@ struct ContactWorkspace {
   std::int64_t searches = 0;                        ///< calls of find_contacts
   std::int64_t points_listed = 0, points_seen = 0;  ///< over all searches
 
+  static constexpr std::uint8_t kAbsent = 2;
+  bool is_absent(std::size_t lane) const { return !ghost.empty() && ghost[lane] == kAbsent; }
   bool is_ghost(std::size_t lane) const { return !ghost.empty() && ghost[lane] != 0; }
   bool is_ghost_body(std::size_t b) const { return is_ghost(lane_of_body[b]); }
 };

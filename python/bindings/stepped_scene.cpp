@@ -89,7 +89,7 @@ std::shared_ptr<const Loan> SteppedScene::lend_positions() {
 void SteppedScene::take_back() {
   if (loan_.use_count() > 1) {
     coupling::State& s = simulation_.world().state;
-    std::vector<double> dcm = s.dcm.position, cbm = s.cbm.position;
+    HeldRows<double> dcm = s.dcm.position, cbm = s.cbm.position;
     loan_->dcm = std::exchange(s.dcm.position, std::move(dcm));
     loan_->cbm = std::exchange(s.cbm.position, std::move(cbm));
   }

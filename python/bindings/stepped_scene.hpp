@@ -15,7 +15,7 @@ namespace acinus::python {
 
 /// Arrays of positions that the simulation has left behind.
 struct Loan {
-  std::vector<double> dcm, cbm;  ///< empty while the simulation still uses them itself
+  HeldRows<double> dcm, cbm;  ///< empty while the simulation still uses them itself
 };
 
 class SteppedScene {

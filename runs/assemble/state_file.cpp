@@ -145,7 +145,7 @@ void get_shells(const io::CheckpointData& d, dcm::State& s) {
     rows += s.group.back().n_point();
   }
   const std::size_t n = s.group.size() * kLanes;
-  s.position = d.numbers("dcm/position");
+  s.position = HeldRows<double>(d.numbers("dcm/position"));
   s.lineage = d.integers("dcm/lineage");
   s.volume = unflatten(d.numbers("dcm/volume"));
   s.pull = unflatten_points(d.numbers("dcm/pull"));
@@ -162,12 +162,12 @@ void get_spheres(const io::CheckpointData& d, cbm::State& s) {
   s = {};
   s.lineage = d.integers("cbm/lineage");
   const std::size_t n = s.lineage.size();
-  s.position = d.numbers("cbm/position");
+  s.position = HeldRows<double>(d.numbers("cbm/position"));
   const std::vector<std::int64_t>& type = d.integers("cbm/type");
   std::vector<int> types;
   for (const std::int64_t t : type) types.push_back(as_int(d, "cbm/type", t));
   s.type = PagedValues(types);
-  s.volume = unflatten(d.numbers("cbm/volume"));
+  s.volume = HeldRows<Ramp>(unflatten(d.numbers("cbm/volume")));
   s.strength = PagedValues(unflatten(d.numbers("cbm/strength")));
   s.young = PagedValues(d.numbers("cbm/young"));
   s.pull = PagedValues(unflatten_points(d.numbers("cbm/pull")));
@@ -318,14 +318,14 @@ void put_state(const coupling::State& s, io::CheckpointData& d) {
   for (const dcm::Group& g : s.dcm.group)
     group.insert(group.end(), {g.type, static_cast<std::int64_t>(g.topology->n_node)});
   d.put("dcm/group", group);
-  d.put("dcm/position", s.dcm.position);
+  d.put("dcm/position", std::vector<double>(s.dcm.position.begin(), s.dcm.position.end()));
   d.put("dcm/lineage", s.dcm.lineage);
   d.put("dcm/volume", flatten(s.dcm.volume));
   put_birth_shapes(s.dcm, d);
   put_nuclei(s.dcm, d);
   put_tensions(s.dcm, d);
   d.put("dcm/pull", flatten(s.dcm.pull));
-  d.put("cbm/position", s.cbm.position);
+  d.put("cbm/position", std::vector<double>(s.cbm.position.begin(), s.cbm.position.end()));
   d.put("cbm/lineage", s.cbm.lineage);
   d.put("cbm/type", as_integers(s.cbm.type));
   d.put("cbm/volume", flatten(s.cbm.volume));

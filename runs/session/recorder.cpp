@@ -103,6 +103,7 @@ Notes Recorder::resume() {
 }
 
 Excess Recorder::write_frame(bool last) {
+  simulation_.complete_points();
   const coupling::World& world = simulation_.world();
   coupling::Workspace& work = simulation_.work();
   const auto scope = work.timings.scope("frames and audit");

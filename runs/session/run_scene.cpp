@@ -261,6 +261,7 @@ int SceneRun::loop() {
 }
 
 int SceneRun::finish(const coupling::LoopResult& steps) {
+  simulation_.complete_points();
   if (steps.last.interrupted) stopped_by_ = reason_to_stop();
   if (!steps.ok && stopped_by_.empty()) {
     const coupling::StepResult& step = steps.last;

@@ -44,7 +44,7 @@ std::vector<TestCell> make_cube(double distance, int n_sphere) {
 
 TEST(StartShapes, CellsThatContactCanMendKeepTheirShape) {
   World w = make_test_world(make_cube(24, 0));
-  const std::vector<double> before = w.state.dcm.position;
+  const HeldRows<double> before = w.state.dcm.position;
   EXPECT_TRUE(cut_overlapping(w).cells.empty());
   EXPECT_EQ(w.state.dcm.position, before);
 }
@@ -82,7 +82,7 @@ TEST(StartShapes, TheCortexIsAtRestAndForgets) {
 
 TEST(StartShapes, SpheresStayAndTheirNeighboursAreCutAtTheSharedPlane) {
   World w = make_test_world(make_cube(15, 4));
-  const std::vector<double> before = w.state.cbm.position;
+  const HeldRows<double> before = w.state.cbm.position;
   const CutCells cut = cut_overlapping(w);
   EXPECT_EQ(cut.cells, (std::vector<std::int64_t>{4, 5, 6, 7}));
   EXPECT_EQ(w.state.cbm.position, before);

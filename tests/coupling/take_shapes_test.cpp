@@ -62,11 +62,11 @@ TEST(TakeShapes, IsTheSameForAnyThreadsAndLeavesSpheresAlone) {
   const geometry::Topology& fine = geometry::shared_icosphere(642);
   const geometry::Surface shape =
       reference::make_cell(reference::cell_shapes()[1], fine, 12, Mat3::Identity(), Vec3::Zero());
-  std::vector<std::vector<double>> position;
+  std::vector<HeldRows<double>> position;
   for (const int threads : {1, 2}) {
     set_threads(threads);
     World w = make_test_world({{Vec3::Zero()}, {Vec3(40, 0, 0), false}});
-    const std::vector<double> spheres = w.state.cbm.position;
+    const HeldRows<double> spheres = w.state.cbm.position;
     const TakenShapes taken = take_shapes({{0, &shape}, {1, &shape}}, w);
     EXPECT_EQ(taken.laid, 1);
     EXPECT_EQ(w.state.cbm.position, spheres);

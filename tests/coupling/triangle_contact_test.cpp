@@ -26,7 +26,7 @@ World make_pair(const Mat3& turn, const Vec3& shift) {
   w.params.dcm_contact.cell_friction = 0;
   w.params.dcm[0].medium_friction = 1e-3;
   w.params.dcm[0].friction_across = 0;  // blind to rotation
-  std::vector<double>& x = w.state.dcm.position;
+  HeldRows<double>& x = w.state.dcm.position;
   for (std::size_t row = 0; row * kPointStride < x.size(); ++row)
     for (int l = 0; l < 2; ++l) {
       const Address a = make_address(row, l);

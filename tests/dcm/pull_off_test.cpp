@@ -25,7 +25,7 @@ double pull_off(const Mat3& turn_a, const Mat3& turn_b, const ContactParams& opt
   c.options = options;
   c.options.cell_friction = friction;
   std::vector<double> up(c.state.position.size());
-  const std::vector<double> start = c.state.position;
+  const HeldRows<double> start = c.state.position;
   for (int i = 0; i < n_node; ++i)
     store_point(up.data(), node_address(c.state, 1, i), Vec3::UnitZ());
   const auto attraction = [&](double apart) {

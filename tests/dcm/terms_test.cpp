@@ -320,7 +320,8 @@ TEST(Terms, TypesWithDifferentElementsShareASystem) {
     one.group[0].first_row = 0;
     const auto cut = [&](auto& v, std::size_t per_group) {
       const auto first = v.begin() + static_cast<std::ptrdiff_t>(g * per_group);
-      v = std::vector(first, first + static_cast<std::ptrdiff_t>(per_group));
+      const std::vector kept(first, first + static_cast<std::ptrdiff_t>(per_group));
+      v.assign(kept.begin(), kept.end());
     };
     const std::size_t n = static_cast<std::size_t>(t.n_node) * kPointStride;
     cut(one.position, n);

@@ -201,7 +201,7 @@ TEST_F(IdleRules, AreNotThoseThatBeginLater) {
 }
 
 TEST_F(IdleRules, ACellThatDiesIsEnough) {
-  state.cycle.resize(2);
+  state.cycle.assign(2, {});
   state.cycle[1].fate = coupling::Fate::kLyse;
   EXPECT_EQ(list().size(), 2U);
 }
