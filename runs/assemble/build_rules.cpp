@@ -61,7 +61,7 @@ std::string signal_in_words(const SignalRuleEntry& r) {
   return r.name;
 }
 
-std::string half_in_words(const SignalRuleEntry& r) {
+std::string half_in_words(const Scene& scene, const SignalRuleEntry& r) {
   switch (r.signal) {
     case Signal::kPressure:
       return format_quantity(r.half_max, kStress, "Pa");
@@ -71,6 +71,12 @@ std::string half_in_words(const SignalRuleEntry& r) {
       return fmt::format("{:.6g} um^2", r.half_max);
     case Signal::kAge:
       return format_quantity(r.half_max, kTime, "h");
+    case Signal::kConcentration: {
+      const auto substance = std::ranges::find(scene.substances, r.name, &SubstanceBlock::name);
+      if (substance != scene.substances.end() && substance->unit != "1")
+        return fmt::format("{:.6g} {}", r.half_max, substance->unit);
+      [[fallthrough]];
+    }
     default:
       return fmt::format("{:.6g}", r.half_max);
   }
@@ -78,10 +84,10 @@ std::string half_in_words(const SignalRuleEntry& r) {
 
 }  // namespace
 
-std::string describe_rule(const SignalRuleEntry& r) {
+std::string describe_rule(const Scene& scene, const SignalRuleEntry& r) {
   return fmt::format("{} of {} {} with {}: half at {}, power {:.6g}", behaviour_in_words(r),
                      r.cell_type.empty() ? "all cells" : r.cell_type + " cells",
-                     r.decreases ? "falls" : "rises", signal_in_words(r), half_in_words(r),
+                     r.decreases ? "falls" : "rises", signal_in_words(r), half_in_words(scene, r),
                      r.power);
 }
 
@@ -90,7 +96,7 @@ coupling::RuleParams build_rules(const Scene& scene, Notes& notes) {
   p.axis_point = scene.axis_point;
   for (std::size_t k = 0; k < scene.rules.size(); ++k) {
     p.rule.push_back(make_rule(scene, scene.rules[k]));
-    notes.info.push_back(fmt::format("rules.{}: {}", k, describe_rule(scene.rules[k])));
+    notes.info.push_back(fmt::format("rules.{}: {}", k, describe_rule(scene, scene.rules[k])));
   }
   return p;
 }

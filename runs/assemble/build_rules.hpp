@@ -9,8 +9,9 @@
 
 namespace acinus::runs {
 
-/// One rule in words: "growth of all cells falls with pressure: half at 200 Pa, power 4".
-std::string describe_rule(const SignalRuleEntry& rule);
+/// One rule of a scene in words: "growth of all cells falls with pressure: half at 200 Pa, power
+/// 4".
+std::string describe_rule(const Scene& scene, const SignalRuleEntry& rule);
 
 /// Constants of the rules.   @param notes  receives each in words
 coupling::RuleParams build_rules(const Scene& scene, Notes& notes);

@@ -65,7 +65,7 @@ std::vector<std::string> list_idle_rules(const Scene& scene, const Measures& mea
   for (std::size_t k = 0; k < scene.rules.size(); ++k)
     if (largest(measures, fmt::format("rule_{}_cells", k)) == 0)
       list.push_back(fmt::format("rules.{} acted on no cell in any frame by half or more: {}", k,
-                                 describe_rule(scene.rules[k])));
+                                 describe_rule(scene, scene.rules[k])));
   return list;
 }
 

@@ -107,9 +107,9 @@ TEST(SceneSubstances, RulesTakeSignalsOfCellsInTheirUnits) {
     EXPECT_NEAR(scene.rules[k].half_max, half[k], 1e-9 * half[k]) << k;
     EXPECT_NE(scene.rules[k].signal, coupling::Signal::kConcentration) << k;
   }
-  EXPECT_EQ(describe_rule(scene.rules[0]),
+  EXPECT_EQ(describe_rule(scene, scene.rules[0]),
             "growth of all cells rises with pressure: half at 200 Pa, power 4");
-  EXPECT_EQ(describe_rule(scene.rules[3]),
+  EXPECT_EQ(describe_rule(scene, scene.rules[3]),
             "growth of all cells rises with the number of a neighbours: half at 6, power 4");
   const Scene again = parse_scene(write_resolved(scene), "scene.json");
   EXPECT_EQ(again.rules[5].half_max, 18000);
