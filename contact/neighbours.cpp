@@ -40,15 +40,18 @@ struct PointGrid {
   }
 };
 
+bool is_absent(std::span<const std::uint8_t> ghost, std::size_t i) {
+  return !ghost.empty() && ghost[i] == kAbsentSphere;
+}
+
 /// Grid of the spheres; empty (no cells) when they are so scattered that most of it would be.
 PointGrid make_grid(const double* position, std::span<const double> radius, double margin,
                     std::span<const std::uint8_t> ghost) {
-  const auto is_absent = [&](std::size_t i) { return !ghost.empty() && ghost[i] == kAbsentSphere; };
   PointGrid g;
   Box box;
   double largest = 0;
   for (std::size_t i = 0; i < radius.size(); ++i) {
-    if (is_absent(i)) continue;
+    if (is_absent(ghost, i)) continue;
     box.include(center(position, i));
     largest = std::max(largest, radius[i]);
   }
@@ -67,11 +70,11 @@ PointGrid make_grid(const double* position, std::span<const double> radius, doub
     return g.index(c[0], c[1], c[2]);
   };
   for (std::size_t i = 0; i < radius.size(); ++i)
-    if (!is_absent(i)) ++g.start[at(i) + 1];
+    if (!is_absent(ghost, i)) ++g.start[at(i) + 1];
   for (std::size_t k = 1; k < g.start.size(); ++k) g.start[k] += g.start[k - 1];
   g.item.resize(g.start.back());
   for (std::size_t i = radius.size(); i-- > 0;) {  // backwards, so that cells hold ascending items
-    if (is_absent(i)) continue;
+    if (is_absent(ghost, i)) continue;
     const std::size_t c = at(i);
     g.item[--g.start[c + 1]] = static_cast<std::int32_t>(i);
   }
@@ -99,7 +102,7 @@ void find_sphere_pairs(const double* position, std::span<const double> radius, d
     std::vector<Box> boxes;
     std::vector<int> sphere;
     for (std::size_t i = 0; i < radius.size(); ++i) {
-      if (!ghost.empty() && ghost[i] == kAbsentSphere) continue;
+      if (is_absent(ghost, i)) continue;
       boxes.push_back(sphere_box(center(position, i), radius[i]));
       sphere.push_back(static_cast<int>(i));
     }

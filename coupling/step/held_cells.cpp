@@ -15,9 +15,6 @@ std::size_t count_lanes(const State& s) { return s.dcm.n_lane() + s.cbm.n_row() 
 
 bool has_moves(const State& s) { return s.last_move.size() == count_unknowns(s); }
 
-double& number_of(State& s, std::size_t k) { return *position_of(s, static_cast<Address>(k)); }
-double number_of(const State& s, std::size_t k) { return *position_of(s, static_cast<Address>(k)); }
-
 /// Parts of a cell that are sent together. `near`: those that near processes have too.
 struct CellParts {
   bool moves = false, near = false, shapes = false;
@@ -57,6 +54,24 @@ Cycle get_cycle(const double*& from) {
 }
 
 }  // namespace
+
+std::size_t exchange_lengths(const Ranks& ranks, ExchangePlan& plan) {
+  ExchangePlan lengths;
+  std::vector<double> sent, received(plan.peer.size());
+  for (const ExchangePlan::Peer& p : plan.peer) {
+    const std::size_t k = sent.size();
+    lengths.peer.push_back({p.rank, k, k + 1, k, k + 1});
+    sent.push_back(static_cast<double>(p.send_end - p.send_begin));
+  }
+  ranks.exchange<double>(lengths, sent, received);
+  std::size_t total = 0;
+  for (std::size_t k = 0; k < plan.peer.size(); ++k) {
+    plan.peer[k].receive_begin = total;
+    total += static_cast<std::size_t>(received[k]);
+    plan.peer[k].receive_end = total;
+  }
+  return total;
+}
 
 std::size_t count_near_numbers(const State& s, std::size_t lane) {
   constexpr std::size_t kConstants = 9, kOfCycle = 7;
@@ -155,29 +170,15 @@ struct Handover {
 /// Sends and receives cells; the moves of those that come go into `moves`.
 void send_cells(const Ranks& ranks, const std::vector<Handover>& with, const CellParts& parts,
                 State& s, RowVector<double>& moves) {
-  ExchangePlan lengths, plan;
-  std::vector<double> out, n_out, n_in;
+  ExchangePlan plan;
+  std::vector<double> out;
   for (std::size_t rank = 0; rank < with.size(); ++rank) {
-    const auto& [send, receive] = with[rank];
-    if (send.empty() && receive.empty()) continue;
-    const int peer = static_cast<int>(rank);
+    if (with[rank].send.empty() && with[rank].receive.empty()) continue;
     const std::size_t first = out.size();
-    for (const std::size_t lane : send) pack(s, lane, parts, out);
-    plan.peer.push_back({peer, first, out.size(), 0, 0});
-    const std::size_t n_sent = n_out.size(), n_got = n_in.size();
-    if (!send.empty()) n_out.push_back(static_cast<double>(out.size() - first));
-    if (!receive.empty()) n_in.push_back(0);
-    lengths.peer.push_back({peer, n_sent, n_out.size(), n_got, n_in.size()});
+    for (const std::size_t lane : with[rank].send) pack(s, lane, parts, out);
+    plan.peer.push_back({static_cast<int>(rank), first, out.size(), 0, 0});
   }
-  ranks.exchange<double>(lengths, n_out, n_in);
-  std::size_t total = 0;
-  for (std::size_t k = 0; k < plan.peer.size(); ++k) {
-    plan.peer[k].receive_begin = total;
-    for (std::size_t n = lengths.peer[k].receive_begin; n < lengths.peer[k].receive_end; ++n)
-      total += static_cast<std::size_t>(n_in[n]);
-    plan.peer[k].receive_end = total;
-  }
-  std::vector<double> in(total);
+  std::vector<double> in(exchange_lengths(ranks, plan));
   ranks.exchange<double>(plan, out, in);
   const double* from = in.data();
   for (const Handover& h : with)

@@ -28,6 +28,19 @@ void for_each_number_of(const State& s, std::size_t lane, const F& f) {
     for (std::size_t m = 0; m < 3; ++m) f(first + i * kPointStride + m * kLanes);
 }
 
+/// Number k of the points of a state, as for_each_number_of counts.
+inline double& number_of(State& s, std::size_t k) {
+  return *position_of(s, static_cast<Address>(k));
+}
+inline double number_of(const State& s, std::size_t k) {
+  return *position_of(s, static_cast<Address>(k));
+}
+
+/// Completes a plan in which each process knows the runs that it sends: gets the lengths of those
+/// that it receives, and places them one after the other. Both ends list each other.
+/// @return length of the receive buffer
+std::size_t exchange_lengths(const Ranks& ranks, ExchangePlan& plan);
+
 /// Keeps the displacements of own cells in a step, work.move: all that State::last_move holds
 /// where cells have holders.
 void keep_own_moves(const Workspace& work, State& state);

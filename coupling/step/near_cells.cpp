@@ -9,6 +9,7 @@
 #include "cbm/contact.hpp"
 #include "core/sphere.hpp"
 #include "coupling/step/held_cells.hpp"
+#include "coupling/step/lane_box.hpp"
 #include "coupling/step/move_points.hpp"
 #include "dcm/contact/contact.hpp"
 #include "geometry/box_pairs.hpp"
@@ -103,80 +104,54 @@ double compute_reach(const Params& p, double range, const cbm::Extremes& spheres
   return std::max(shells, cbm::largest_separation(p.cbm, spheres, p.boundary) + p.cbm_contact.skin);
 }
 
-/// A cell at the border, as it is sent.
-using SentCell = std::array<double, 7>;  // lane, box
-
-SentCell pack_cell(const OwnCell& c) {
-  return {static_cast<double>(c.lane),
-          c.box.low[0],
-          c.box.low[1],
-          c.box.low[2],
-          c.box.high[0],
-          c.box.high[1],
-          c.box.high[2]};
-}
-Box sent_box(const SentCell& c) { return {{c[1], c[2], c[3]}, {c[4], c[5], c[6]}}; }
-
-std::vector<Box> boxes_of(std::span<const SentCell> cells) {
+std::vector<Box> boxes_of(std::span<const LaneBox> cells) {
   std::vector<Box> boxes;
-  for (const SentCell& c : cells) boxes.push_back(sent_box(c));
+  for (const LaneBox& c : cells) boxes.push_back(box_of(c));
   return boxes;
 }
 
 /// Boxes around the cells of each process.
 std::vector<Box> gather_domains(const Ranks& ranks, const OwnCells& own) {
-  OwnCell whole;
+  Box whole;
   for (const OwnCell& c : own.cell) {
-    whole.box.include(c.box.low);
-    whole.box.include(c.box.high);
+    whole.include(c.box.low);
+    whole.include(c.box.high);
   }
-  const SentCell sent = pack_cell(whole);
-  std::vector<SentCell> all;
-  ranks.gather<SentCell>(std::span(&sent, 1), all);
+  const LaneBox sent = pack_box(0, whole);
+  std::vector<LaneBox> all;
+  ranks.gather<LaneBox>(std::span(&sent, 1), all);
   return boxes_of(all);
 }
 
 /// Cells that this process and its peers have near each other's domains, run by run of `plan`.
 struct BorderCells {
   ExchangePlan plan;
-  std::vector<SentCell> own, other;
+  std::vector<LaneBox> own, other;
 };
 
 BorderCells exchange_border_cells(const Ranks& ranks, const OwnCells& own, double reach) {
   const std::vector<Box> domain = gather_domains(ranks, own);
   const auto self = static_cast<std::size_t>(ranks.rank());
   BorderCells border;
-  ExchangePlan lengths;
   for (std::size_t rank = 0; rank < domain.size(); ++rank) {
     const auto& [low, high] = std::minmax(rank, self);  // both sides compare the same numbers
     if (rank == self || !domain[low].grown(reach).overlaps(domain[high])) continue;
     const Box within = domain[rank].grown(reach);
-    const std::size_t first = border.own.size(), k = border.plan.peer.size();
+    const std::size_t first = border.own.size();
     for (const OwnCell& c : own.cell)
-      if (within.overlaps(c.box)) border.own.push_back(pack_cell(c));
+      if (within.overlaps(c.box)) border.own.push_back(pack_box(c.lane, c.box));
     border.plan.peer.push_back({static_cast<int>(rank), first, border.own.size(), 0, 0});
-    lengths.peer.push_back({static_cast<int>(rank), k, k + 1, k, k + 1});
   }
-  std::vector<double> n_own, n_other(lengths.peer.size());
-  for (const ExchangePlan::Peer& p : border.plan.peer)
-    n_own.push_back(static_cast<double>(p.send_end - p.send_begin));
-  ranks.exchange<double>(lengths, n_own, n_other);
-  std::size_t total = 0;
-  for (std::size_t k = 0; k < n_other.size(); ++k) {
-    border.plan.peer[k].receive_begin = total;
-    total += static_cast<std::size_t>(n_other[k]);
-    border.plan.peer[k].receive_end = total;
-  }
-  border.other.resize(total);
-  ranks.exchange<SentCell>(border.plan, border.own, border.other);
+  border.other.resize(exchange_lengths(ranks, border.plan));
+  ranks.exchange<LaneBox>(border.plan, border.own, border.other);
   return border;
 }
 
 /// Appends the lanes of the marked cells.
-void append_marked(std::span<const SentCell> cells, const std::vector<std::uint8_t>& marked,
+void append_marked(std::span<const LaneBox> cells, const std::vector<std::uint8_t>& marked,
                    std::vector<std::size_t>& lanes) {
   for (std::size_t k = 0; k < cells.size(); ++k)
-    if (marked[k] != 0) lanes.push_back(static_cast<std::size_t>(cells[k][0]));
+    if (marked[k] != 0) lanes.push_back(lane_of(cells[k]));
 }
 
 /// Finds the cells of each pair of processes that are closer than `reach`, alike on both.
@@ -227,8 +202,6 @@ void exchange_near(const Ranks& ranks, const NearCells& near, const Count& count
   const double* from = in.data();
   for (const std::size_t lane : near.receive) from = unpack(lane, from);
 }
-
-double& coordinate_of(State& s, std::size_t k) { return *position_of(s, static_cast<Address>(k)); }
 
 /// Marks the cells without points for the contact search, which forgets its lists.
 void mark_absent_cells(Workspace& w, const State& s) {
@@ -294,7 +267,7 @@ void move_present_points(const Workspace& w, std::span<const double> by, State& 
     return solve::stream_rows(w.system, by, [&](std::size_t first, std::span<const double> rows) {
       move_points(s, first, rows);
     });
-  for_each_own_number(w.system, [&](std::size_t k) { coordinate_of(s, k) += by[k]; });
+  for_each_own_number(w.system, [&](std::size_t k) { number_of(s, k) += by[k]; });
   exchange_near(
       w.system.ownership.ranks, w.near,
       [&](std::size_t lane) { return 3 * static_cast<std::size_t>(points_of(s, lane)); },
@@ -302,7 +275,7 @@ void move_present_points(const Workspace& w, std::span<const double> by, State& 
         for_each_number_of(s, lane, [&](std::size_t k) { out.push_back(by[k]); });
       },
       [&](std::size_t lane, const double* from) {
-        for_each_number_of(s, lane, [&](std::size_t k) { coordinate_of(s, k) += *from++; });
+        for_each_number_of(s, lane, [&](std::size_t k) { number_of(s, k) += *from++; });
         return from;
       });
 }

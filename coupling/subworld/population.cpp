@@ -38,25 +38,35 @@ void sort_along_curve(std::vector<SelectedCell<State>>& members, const CenterOf&
   members = std::move(sorted);
 }
 
+/// Gives a state room for the signals and the adhesion that another one has.
+void size_signals(const State& like, std::size_t n_cell, State& s) {
+  for (std::size_t k = 0; k < like.signal.value.size(); ++k) {
+    s.signal.value.resize(like.signal.value.size());
+    if (!like.signal.value[k].empty()) s.signal.value[k].resize(n_cell, 0.0);
+  }
+  if (!like.adhesion.empty()) s.adhesion.resize(n_cell, 1.0);
+}
+
+/// Copies them of one cell.   @pre size_signals
+void copy_signals(const State& from, std::size_t at, State& s, std::size_t to) {
+  for (std::size_t k = 0; k < from.signal.value.size(); ++k)
+    if (!from.signal.value[k].empty()) s.signal.value[k][to] = from.signal.value[k][at];
+  if (!from.adhesion.empty()) s.adhesion[to] = from.adhesion[at];
+}
+
 /// Gives fresh cells the measured signals and the adhesion that they had in another model, or that
 /// their mother had.
 void inherit_signals(std::span<const State> fresh, const State& before, State& s) {
   if (before.signal.value.empty() && before.adhesion.empty()) return;
   const std::size_t n_cell = s.dcm.n_lane() + s.cbm.n_cell();
-  s.signal.value.resize(before.signal.value.size());
-  for (std::size_t k = 0; k < before.signal.value.size(); ++k)
-    if (!before.signal.value[k].empty()) s.signal.value[k].resize(n_cell, 0.0);
-  if (!before.adhesion.empty()) s.adhesion.resize(n_cell, 1.0);
+  size_signals(before, s.dcm.n_lane() + s.cbm.n_cell(), s);
   const CellIndex then = index_cells(before), now = index_cells(s);
   for (const State& f : fresh)
     for_each_cell(f, [&](const Cell& c) {
       auto from = then.find(lineage_of(f, c));
       if (from == then.end() && c.index < f.cycle.size()) from = then.find(f.cycle[c.index].parent);
       if (from == then.end()) return;
-      const std::size_t at = from->second.index, to = now.at(lineage_of(f, c)).index;
-      for (std::size_t k = 0; k < before.signal.value.size(); ++k)
-        if (!before.signal.value[k].empty()) s.signal.value[k][to] = before.signal.value[k][at];
-      if (!before.adhesion.empty()) s.adhesion[to] = before.adhesion[at];
+      copy_signals(before, from->second.index, s, now.at(lineage_of(f, c)).index);
     });
 }
 
@@ -93,16 +103,8 @@ State compose(std::span<const SelectedCell<State>> dcm, std::span<const Selected
       s.guidance.resize(n_cell);
       s.guidance[to] = from.guidance[at];
     }
-    for (std::size_t k = 0; k < from.signal.value.size(); ++k) {
-      s.signal.value.resize(from.signal.value.size());
-      if (from.signal.value[k].empty()) continue;
-      s.signal.value[k].resize(n_cell, 0.0);
-      s.signal.value[k][to] = from.signal.value[k][at];
-    }
-    if (!from.adhesion.empty()) {
-      s.adhesion.resize(n_cell, 1.0);
-      s.adhesion[to] = from.adhesion[at];
-    }
+    size_signals(from, n_cell, s);
+    copy_signals(from, at, s, to);
     if (value_of(from.asleep, at, std::uint8_t{0}) == 0) return;
     s.asleep.resize(n_cell, 0);
     s.asleep[to] = 1;
