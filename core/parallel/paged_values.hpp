@@ -58,9 +58,7 @@ class PagedValues {
   class Iterator {
    public:
     using value_type = T;
-    using reference = const T&;
     using difference_type = std::ptrdiff_t;
-    using iterator_category = std::forward_iterator_tag;
     Iterator() = default;
     Iterator(const PagedValues* values, std::size_t k) : values_(values), k_(k) {}
     const T& operator*() const { return (*values_)[k_]; }

@@ -59,7 +59,7 @@ void copy_signals(const State& from, std::size_t at, State& s, std::size_t to) {
 void inherit_signals(std::span<const State> fresh, const State& before, State& s) {
   if (before.signal.value.empty() && before.adhesion.empty()) return;
   const std::size_t n_cell = s.dcm.n_lane() + s.cbm.n_cell();
-  size_signals(before, s.dcm.n_lane() + s.cbm.n_cell(), s);
+  size_signals(before, n_cell, s);
   const CellIndex then = index_cells(before), now = index_cells(s);
   for (const State& f : fresh)
     for_each_cell(f, [&](const Cell& c) {
