@@ -333,17 +333,14 @@ void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
   }
 }
 
-void list_pairs(const ContactInput& in, const ContactWorkspace& work,
-                contact::ContactList& contacts) {
-  const std::size_t first = contacts.first(contact::ContactKind::kSphere);
-  contacts.all.resize(first);
-  contacts.all.reserve(first + work.touching.size());
+void visit_pairs(const ContactInput& in, const ContactWorkspace& work,
+                 const std::function<void(const contact::Contact&)>& visit) {
   PairBatch batch(in, work);
   const auto flush = [&] {
     if (batch.size() == 0) return;
     batch.evaluate_all();
     for (std::size_t l = 0; l < batch.size(); ++l)
-      contacts.all.push_back(record_of(batch, l, work.pair[batch.index[l]]));
+      visit(record_of(batch, l, work.pair[batch.index[l]]));
     batch.clear();
   };
   std::size_t k = 0;
@@ -353,7 +350,6 @@ void list_pairs(const ContactInput& in, const ContactWorkspace& work,
     if (batch.push(k)) flush();
   }
   flush();
-  contacts.close(contact::ContactKind::kSphere);
 }
 
 }  // namespace acinus::cbm

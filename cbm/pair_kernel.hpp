@@ -1,6 +1,7 @@
 #pragma once
 /// Contacts of sphere pairs, eight at a time.
 
+#include <functional>
 #include <vector>
 
 #include "cbm/contact_workspace.hpp"
@@ -14,8 +15,8 @@ namespace acinus::cbm {
 void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
                         std::vector<solve::PointLink>& link);
 
-/// Appends the touching pairs of the last search one by one. @pre find_contacts
-void list_pairs(const ContactInput& in, const ContactWorkspace& work,
-                contact::ContactList& contacts);
+/// Calls `visit` with a record of every touching pair of the last search. @pre find_contacts
+void visit_pairs(const ContactInput& in, const ContactWorkspace& work,
+                 const std::function<void(const contact::Contact&)>& visit);
 
 }  // namespace acinus::cbm

@@ -80,10 +80,10 @@ struct Contact {
 };
 static_assert(sizeof(Contact) == 96);  // a step reads and writes all of them: larger is slower
 
-/// Kinds of contacts by their sides, in the order of the list. Spheres with spheres are listed on
-/// demand: a step evaluates them eight at a time without records.
-enum class ContactKind { kSurface, kObstacle, kInterface, kSphereObstacle, kNucleus, kSphere };
-inline constexpr std::size_t kKinds = 6;
+/// Kinds of contacts by their sides, in the order of the list. Spheres with spheres are not listed:
+/// they are evaluated eight at a time without records (cbm::visit_pairs).
+enum class ContactKind { kSurface, kObstacle, kInterface, kSphereObstacle, kNucleus };
+inline constexpr std::size_t kKinds = 5;
 
 /// Contacts of one time, one kind after the other. Contacts of one cell a are contiguous.
 struct ContactList {
@@ -114,7 +114,6 @@ struct ContactList {
   std::span<const Contact> interface() const { return of(ContactKind::kInterface); }
   std::span<const Contact> sphere_obstacle() const { return of(ContactKind::kSphereObstacle); }
   std::span<const Contact> nucleus() const { return of(ContactKind::kNucleus); }
-  std::span<const Contact> sphere() const { return of(ContactKind::kSphere); }
 };
 
 }  // namespace acinus::contact

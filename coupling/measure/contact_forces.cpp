@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
 #include <unordered_map>
 
-#include "core/disjoint_sets.hpp"
 #include "core/numbers/exact_sum.hpp"
 #include "coupling/measure/pair_contacts.hpp"
 #include "coupling/migration/fading.hpp"
@@ -14,18 +12,14 @@
 namespace acinus::coupling {
 namespace {
 
-/// Centres of cells: surfaces first, then spheres, in the order of measure_cells.
+/// Points of action of contacts.
 struct Places {
   const World& world;
   const Workspace& w;
   std::vector<Vec3> center;  ///< um
 
-  Places(const World& of, const Workspace& work) : world(of), w(work) {
-    for (const std::size_t lane : w.dcm.lane_of_body)
-      center.push_back(dcm::cell_center(world.state.dcm, lane));
-    for (std::size_t c = 0; c < world.state.cbm.n_cell(); ++c)
-      center.push_back(cbm::center_of(world.state.cbm, c));
-  }
+  Places(const World& of, const Workspace& work)
+      : world(of), w(work), center(list_centers(of, work)) {}
 
   Vec3 point(const contact::Contact& k) const {
     const contact::SurfaceBody& body = w.dcm.body[k.a];
@@ -83,12 +77,22 @@ void visit_fading(const World& world, const Places& places,
 
 }  // namespace
 
+std::vector<Vec3> list_centers(const World& world, const Workspace& w) {
+  const std::size_t n_sphere = world.state.cbm.n_cell();
+  std::vector<Vec3> center;
+  center.reserve(w.dcm.body.size() + n_sphere);
+  for (const std::size_t lane : w.dcm.lane_of_body)
+    center.push_back(dcm::cell_center(world.state.dcm, lane));
+  for (std::size_t c = 0; c < n_sphere; ++c) center.push_back(cbm::center_of(world.state.cbm, c));
+  return center;
+}
+
 void visit_contacts(const World& world, const Workspace& w,
                     const std::function<void(const ContactForce&)>& visit) {
   const Places places(world, w);
   const std::size_t n_body = w.dcm.body.size();
-  for (const contact::Contact& k : w.contacts.all) {
-    if (k.partner == contact::Partner::kNucleus) continue;  // within a cell
+  const auto visit_record = [&](const contact::Contact& k) {
+    if (k.partner == contact::Partner::kNucleus) return;  // within a cell
     const bool sphere = k.point == contact::kWhole;
     ContactForce f;
     f.a = static_cast<std::size_t>(k.a) + (sphere ? n_body : 0);
@@ -108,7 +112,9 @@ void visit_contacts(const World& world, const Workspace& w,
     else
       places.set_arms_of_surface(k, f);
     visit(f);
-  }
+  };
+  for (const contact::Contact& k : w.contacts.all) visit_record(k);
+  visit_sphere_pairs(world, w, visit_record);
   visit_fading(world, places, visit);
 }
 
@@ -147,32 +153,6 @@ Reactions compute_reactions(const World& world, const Workspace& w) {
       part.area = value();
     }
   return r;
-}
-
-std::vector<std::pair<std::size_t, std::size_t>> find_touching(const World& world,
-                                                               const Workspace& w) {
-  std::set<std::pair<std::size_t, std::size_t>> pairs;
-  visit_contacts(world, w, [&](const ContactForce& c) {
-    if (c.touching) pairs.emplace(std::min(c.a, c.b), std::max(c.a, c.b));
-  });
-  if (!w.system.ownership.is_whole()) {
-    using Pair = std::array<std::size_t, 2>;
-    std::vector<Pair> own, all;
-    for (const auto& [a, b] : pairs) own.push_back({a, b});
-    w.system.ownership.ranks.gather<Pair>(own, all);
-    for (const auto& [a, b] : all) pairs.emplace(a, b);
-  }
-  return {pairs.begin(), pairs.end()};
-}
-
-std::vector<int> cluster_sizes(std::size_t n_cell,
-                               const std::vector<std::pair<std::size_t, std::size_t>>& touching) {
-  DisjointSets clusters(n_cell);
-  for (const auto& [a, b] : touching) clusters.join(static_cast<int>(a), static_cast<int>(b));
-  std::vector<int> members(n_cell, 0), size;
-  for (int i = 0; i < static_cast<int>(n_cell); ++i) ++members[clusters.find(i)];
-  for (int i = 0; i < static_cast<int>(n_cell); ++i) size.push_back(members[clusters.find(i)]);
-  return size;
 }
 
 double interface_residual(const World& world, const Workspace& w) {

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "coupling/world/workspace.hpp"
@@ -35,6 +34,9 @@ struct ContactForce {
   bool fades = false;
 };
 
+/// Centres of all cells in the order of measure_cells, um.
+std::vector<Vec3> list_centers(const World& world, const Workspace& work);
+
 /// Calls `visit` with every contact, then with every fading pair force (fading.hpp).   @pre observe
 void visit_contacts(const World& world, const Workspace& work,
                     const std::function<void(const ContactForce&)>& visit);
@@ -61,14 +63,6 @@ struct Reactions {
   }
 };
 Reactions compute_reactions(const World& world, const Workspace& work);
-
-/// Pairs of cells that exert a force on each other, a < b, ascending.   @pre observe
-std::vector<std::pair<std::size_t, std::size_t>> find_touching(const World& world,
-                                                               const Workspace& work);
-
-/// Number of cells in the contact cluster of each cell, itself included.
-std::vector<int> cluster_sizes(std::size_t n_cell,
-                               const std::vector<std::pair<std::size_t, std::size_t>>& touching);
 
 /// Imbalance of action and reaction of the DCM-CBM contacts, with forces distributed over nodes and
 /// spheres as in the solver: the larger of |sum f| / sum |f| and, about their centroid, |sum x f| /

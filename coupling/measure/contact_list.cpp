@@ -81,14 +81,10 @@ class ContactAreas {
 std::vector<CellContact> list_contacts(const World& world, const Workspace& w,
                                        const std::vector<CellMeasure>& cells) {
   const ContactAreas areas(world, w, cells);
-  ContactSums sums;
-  visit_contacts(world, w, [&](const ContactForce& c) {
-    sums.add(c);
-    if (c.record != nullptr) sums.add_areas(c, areas.of_a(*c.record), areas.of_b(*c.record));
+  std::vector<CellContact> list = sum_contacts(world, w, [&](const ContactForce& c) {
+    using Both = std::array<double, 2>;
+    return c.record == nullptr ? Both{} : Both{areas.of_a(*c.record), areas.of_b(*c.record)};
   });
-  std::vector<Vec3> center;
-  for (const CellMeasure& m : cells) center.push_back(m.center);
-  std::vector<CellContact> list = sums.list(center, w.dcm.body.size());
   const solve::Ownership& ownership = w.system.ownership;
   if (ownership.is_whole()) return list;
   // The owners of both cells have the same force, and each the area of its own side.

@@ -1,9 +1,10 @@
 #pragma once
 /// Sums of contacts per pair: of two cells, or of a cell with one part of the boundary.
 
-#include <compare>
+#include <array>
 #include <cstddef>
-#include <map>
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "coupling/measure/contact_forces.hpp"
@@ -28,30 +29,24 @@ struct CellContact {
   double area_a = 0, area_b = 0;
 };
 
-/// Sums of contacts per pair, those with boundary first, then by a, b, kind and index. Folds of one
-/// cell are left out, as are fading forces with boundary, whose part is unknown.
-class ContactSums {
- public:
-  /// Adds the force of a contact.
-  void add(const ContactForce& contact);
-  /// Adds the areas of a contact of the sides that it names a and b.
-  void add_areas(const ContactForce& contact, double area_a, double area_b);
-  /// Pairs with normal forces.
-  /// @param center        of all cells, um
-  /// @param n_deformable  number of those, which come first
-  std::vector<CellContact> list(const std::vector<Vec3>& center, std::size_t n_deformable) const;
+/// Areas of a contact of the sides that it names a and b, um^2.
+using AreasOfContact = std::function<std::array<double, 2>(const ContactForce&)>;
 
- private:
-  struct PartKey {
-    bool pair;
-    std::size_t a, b;
-    contact::Partner partner;
-    int index;
-    auto operator<=>(const PartKey&) const = default;
-  };
-  CellContact& sum_of(const ContactForce& contact);
-  std::map<PartKey, CellContact> sum_;
-};
+/// Sums of contacts per pair, those with boundary first, then by a, b, kind and index. Folds of one
+/// cell are left out, as are fading forces with boundary, whose part is unknown. Contacts are
+/// visited twice, so that nothing is kept of a single one.
+/// @param areas  empty: areas stay 0   @pre observe
+std::vector<CellContact> sum_contacts(const World& world, const Workspace& work,
+                                      const AreasOfContact& areas = {});
+
+/// Two cells, a < b, by their numbers.
+using CellPair = std::array<std::uint32_t, 2>;
+
+/// Pairs of cells that exert a force on each other, ascending, over all processes.   @pre observe
+std::vector<CellPair> find_touching(const World& world, const Workspace& work);
+
+/// Number of cells in the contact cluster of each cell, itself included.
+std::vector<int> cluster_sizes(std::size_t n_cell, const std::vector<CellPair>& touching);
 
 }  // namespace acinus::coupling
 

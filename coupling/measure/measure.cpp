@@ -6,7 +6,6 @@
 #include "core/sphere.hpp"
 #include "coupling/measure/contact_forces.hpp"
 #include "coupling/measure/contact_sums.hpp"
-#include "coupling/measure/pair_contacts.hpp"
 #include "coupling/step/ghost_cells.hpp"
 #include "coupling/step/step.hpp"
 #include "dcm/contact/contact_points.hpp"
@@ -108,15 +107,11 @@ void add_contacts(const World& world, const Workspace& w, std::vector<CellMeasur
   auto press = [&](std::size_t cell, const Vec3& force, const Vec3& arm) {
     add_stress(cells[cell], sphere_volume(cells[cell].radius), force, arm);
   };
-  ContactSums sums;
   visit_contacts(world, w, [&](const ContactForce& c) {
     press(c.a, c.force, c.arm_a);
     if (c.b != kNoCell) press(c.b, -c.force, c.arm_b);
-    sums.add(c);
   });
-  std::vector<Vec3> center;
-  for (const CellMeasure& m : cells) center.push_back(m.center);
-  for (const CellContact& pair : sums.list(center, w.dcm.body.size()))
+  for (const CellContact& pair : sum_contacts(world, w))
     for (const std::size_t k : {pair.a, pair.b}) {
       if (k == kNoCell) continue;
       if (pair.touching) ++cells[k].contacts;
@@ -127,10 +122,7 @@ void add_contacts(const World& world, const Workspace& w, std::vector<CellMeasur
 
 }  // namespace
 
-void observe(const World& world, Workspace& w) {
-  assemble(world, kNow, w);
-  list_sphere_pairs(world, w);
-}
+void observe(const World& world, Workspace& w) { assemble(world, kNow, w); }
 
 std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
   std::vector<CellMeasure> cells;

@@ -9,17 +9,10 @@
 
 namespace acinus::coupling {
 
-void drop_sphere_pairs(Workspace& w) {
-  contact::ContactList& c = w.contacts;
-  if (c.sphere().empty()) return;
-  c.all.resize(c.first(contact::ContactKind::kSphere));
-  c.all.shrink_to_fit();
-  c.close(contact::ContactKind::kSphere);
-}
-
-void list_sphere_pairs(const World& world, Workspace& w) {
+void visit_sphere_pairs(const World& world, const Workspace& w,
+                        const std::function<void(const contact::Contact&)>& visit) {
   const PhaseParams phase = phase_params(world);
-  cbm::list_pairs(contact_input(world, world.state, phase, 0, w).cbm, w.cbm, w.contacts);
+  cbm::visit_pairs(contact_input(world, world.state, phase, 0, w).cbm, w.cbm, visit);
 }
 
 std::vector<InterfaceForce> interface_forces(const World& world, const Workspace& w) {

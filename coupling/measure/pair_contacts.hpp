@@ -1,6 +1,7 @@
 #pragma once
 /// Contacts of pairs of cells in an assembled state.
 
+#include <functional>
 #include <vector>
 
 #include "coupling/world/workspace.hpp"
@@ -12,12 +13,9 @@ namespace acinus::coupling {
 /// @pre assemble
 std::vector<InterfaceForce> interface_forces(const World& world, const Workspace& work);
 
-/// Appends the contacts between spheres to the list; a step does not need them individually.   @pre
-/// assemble
-void list_sphere_pairs(const World& world, Workspace& work);
-
-/// Removes them again, and gives back their memory.
-void drop_sphere_pairs(Workspace& work);
+/// Calls `visit` with a record of every contact between two spheres.   @pre assemble
+void visit_sphere_pairs(const World& world, const Workspace& work,
+                        const std::function<void(const contact::Contact&)>& visit);
 
 /// Stencil of the unknowns of both sides of a contact.   @pre assemble
 solve::Stencil stencil_of(const World& world, const Workspace& work,

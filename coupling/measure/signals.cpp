@@ -5,7 +5,6 @@
 
 #include "core/numbers/time_grid.hpp"
 #include "coupling/measure/contact_list.hpp"
-#include "coupling/measure/pair_contacts.hpp"
 #include "coupling/migration/lesion_layers.hpp"
 #include "coupling/substances/fields.hpp"
 #include "coupling/substances/responses.hpp"
@@ -105,7 +104,6 @@ void refresh_signals(World& world, Workspace& w) {
   const auto scope = w.timings.scope("signals");
   observe(world, w);
   s.signal = {measure_signals(world, w, measure_cells(world, w)), now};
-  drop_sphere_pairs(w);
 }
 
 }  // namespace acinus::coupling

@@ -11,6 +11,7 @@
 #include "coupling/life/cell_cycle.hpp"
 #include "coupling/life/density.hpp"
 #include "coupling/measure/contact_forces.hpp"
+#include "coupling/measure/contact_sums.hpp"
 #include "coupling/measure/signals.hpp"
 #include "coupling/substances/fields.hpp"
 #include "coupling/world/cell.hpp"

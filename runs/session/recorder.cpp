@@ -9,7 +9,6 @@
 #include "acinus_version.hpp"
 #include "core/error.hpp"
 #include "core/parallel/clock.hpp"
-#include "coupling/measure/pair_contacts.hpp"
 #include "coupling/step/workspace_size.hpp"
 #include "coupling/substances/growing_box.hpp"
 #include "dcm/contact/contact_bodies.hpp"
@@ -134,7 +133,6 @@ Excess Recorder::write_frame(bool last) {
               fmt::format("{} self-intersecting cells", audit.n_self_intersecting));
   Excess excess = find_excess(audit, world, work);
   if (excess.depth_um > 0) add_event("deep_overlap", excess.cause, excess.cells);
-  coupling::drop_sphere_pairs(work);
   const bool shrinks = excess.depth_um < excess_.depth_um && !last;
   excess_ = excess;
   return shrinks ? Excess{} : excess;

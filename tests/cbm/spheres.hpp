@@ -20,8 +20,9 @@ struct Spheres {
   double time = 0;
   ContactWorkspace work;
   solve::System system;
-  contact::ContactList contacts;     ///< of the last find()
-  std::vector<std::int64_t> mother;  ///< empty: all are sisters
+  contact::ContactList contacts;        ///< with obstacles, of the last find()
+  std::vector<contact::Contact> pairs;  ///< of the last find()
+  std::vector<std::int64_t> mother;     ///< empty: all are sisters
 
   explicit Spheres(const std::vector<NewCell>& cells) : state(make_state(cells)) {
     params[0].adhesion = 0.01;
@@ -41,9 +42,10 @@ struct Spheres {
     find_contacts(in, work, contacts, system.point_links);
     add_coupling(work, contacts.of(contact::ContactKind::kSphereObstacle), system.point_links);
     add_contact_loads(in, work, contacts, system);
-    list_pairs(in, work, contacts);
+    pairs.clear();
+    visit_pairs(in, work, [this](const contact::Contact& c) { pairs.push_back(c); });
   }
-  std::span<const contact::Contact> sphere() const { return contacts.sphere(); }
+  const std::vector<contact::Contact>& sphere() const { return pairs; }
   std::span<const contact::Contact> obstacle() const { return contacts.sphere_obstacle(); }
   /// Links of what touches; near pairs that do not have links of zeros.
   std::vector<solve::PointLink> links() const {

@@ -87,10 +87,10 @@ std::vector<Vec3> forces_on_spheres(const World& w, const Workspace& work) {
   return f;
 }
 
-double deepest_overlap(const World& w, Workspace& work) {
+double deepest_overlap(const World& w, const Workspace& work) {
   double overlap = 0;
-  list_sphere_pairs(w, work);
-  for (const contact::Contact& c : work.contacts.sphere()) overlap = std::max(overlap, -c.gap);
+  visit_sphere_pairs(w, work,
+                     [&](const contact::Contact& c) { overlap = std::max(overlap, -c.gap); });
   return overlap;
 }
 

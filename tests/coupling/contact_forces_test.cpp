@@ -1,6 +1,7 @@
 /// Contacts one by one: reactions of the boundary, who touches whom, the interface's balance.
 
 #include "coupling/measure/contact_forces.hpp"
+#include "coupling/measure/contact_sums.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ namespace acinus::coupling {
 namespace {
 
 using contact::Partner;
-using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+using Pairs = std::vector<CellPair>;
 
 contact::Plane mirror_at(const Vec3& point, const Vec3& normal) {
   contact::Plane plane;

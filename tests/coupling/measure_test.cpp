@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "coupling/measure/pair_contacts.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {
@@ -23,10 +24,10 @@ TEST(ContactForce, OfACellBetweenTwoIsTheSumOfBoth) {
   const Measured o(
       make_test_world({{Vec3(-22, 0, 0), false}, {Vec3::Zero(), false}, {Vec3(0, 23, 0), false}}));
   double left = 0, top = 0;
-  for (const contact::Contact& c : o.work.contacts.sphere()) {
+  visit_sphere_pairs(o.world, o.work, [&](const contact::Contact& c) {
     if (std::min(c.a, c.b) == 0 && std::max(c.a, c.b) == 1) left = std::abs(c.force);
     if (std::min(c.a, c.b) == 1 && std::max(c.a, c.b) == 2) top = std::abs(c.force);
-  }
+  });
   EXPECT_GT(left, 0);
   EXPECT_GT(top, 0);
   // The same numbers, up to the length of the normal.
