@@ -1,13 +1,10 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "core/spelling.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "runs/scene/scene_rules.hpp"
 
@@ -15,18 +12,13 @@ namespace acinus::runs {
 
 void check_pair_adhesions(const Scene& scene, Report& report) {
   std::set<std::pair<std::string, std::string>> seen;
-  std::vector<std::string> names;
-  for (const auto& [name, type] : scene.cell_types) names.push_back(name);
   for (const auto& [name, type] : scene.cell_types)
     for (std::size_t k = 0; k < type.adhesion_with.size(); ++k) {
       const std::string& other = type.adhesion_with[k].type;
       const std::string pointer = fmt::format("/cell_types/{}/adhesion_with/{}/type", name, k),
                         found = "\"" + other + "\"";
       if (!scene.cell_types.contains(other))
-        report.add_relation(
-            {pointer, "/cell_types"}, found,
-            "unknown cell type. " + did_you_mean(nearest_name(other, names),
-                                                 fmt::format("Known: {}", fmt::join(names, ", "))));
+        check_type_name(scene, other, pointer, report);
       else if (other == name)
         report.add_relation({pointer}, found,
                             fmt::format("is this type itself. Set /cell_types/{}/adhesion", name));

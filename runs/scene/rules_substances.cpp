@@ -100,17 +100,6 @@ void check_exchanged(const Scene& scene, const SignalRuleEntry& r, const std::st
                   secretes ? "secretion" : "uptake"));
 }
 
-void check_cell_type(const Scene& scene, const std::string& type, const std::string& pointer,
-                     Report& report) {
-  if (type.empty() || scene.cell_types.contains(type)) return;
-  std::vector<std::string> names;
-  for (const auto& [name, block] : scene.cell_types) names.push_back(name);
-  report.add_relation(
-      {pointer, "/cell_types"}, "\"" + type + "\"",
-      "unknown cell type. " + did_you_mean(nearest_name(type, names),
-                                           fmt::format("Known: {}", fmt::join(names, ", "))));
-}
-
 /// Requires a signal that is a substance or a quantity of the cell.
 void check_signal(const Scene& scene, const SignalRuleEntry& r, const std::string& pointer,
                   Report& report) {
@@ -143,8 +132,8 @@ void check_signal_rules(const Scene& scene, Report& report) {
                                           r.name + "\" has none");
     if (exchanges && std::ranges::find(known, r.exchanged) != known.end())
       check_exchanged(scene, r, pointer, report);
-    check_cell_type(scene, r.cell_type, pointer + "/cell_type", report);
-    check_cell_type(scene, r.other, pointer + "/neighbour_type", report);
+    check_type_name(scene, r.cell_type, pointer + "/cell_type", report);
+    check_type_name(scene, r.other, pointer + "/neighbour_type", report);
   }
 }
 

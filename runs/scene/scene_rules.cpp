@@ -95,15 +95,6 @@ void check_start_up(const Scene& scene, Report& report) {
   }
 }
 
-void check_type_name(const Scene& scene, const std::string& type, const std::string& pointer,
-                     Report& report) {
-  const std::vector<std::string> names = type_names(scene);
-  if (type.empty() || names.empty() || scene.cell_types.contains(type)) return;
-  const std::string known = fmt::format("Known: {}", fmt::join(names, ", "));
-  report.add_relation({pointer, "/cell_types"}, "",
-                      "unknown cell type. " + did_you_mean(nearest_name(type, names), known));
-}
-
 void check_list(const Scene& scene, Report& report) {
   const CellsBlock& cells = scene.cells;
   const std::vector<std::string> names = type_names(scene);
@@ -259,6 +250,15 @@ void check_boundary(const Scene& scene, Report& report) {
 }
 
 }  // namespace
+
+void check_type_name(const Scene& scene, const std::string& type, const std::string& pointer,
+                     Report& report) {
+  const std::vector<std::string> names = type_names(scene);
+  if (type.empty() || names.empty() || scene.cell_types.contains(type)) return;
+  const std::string known = fmt::format("Known: {}", fmt::join(names, ", "));
+  report.add_relation({pointer, "/cell_types"}, "\"" + type + "\"",
+                      "unknown cell type. " + did_you_mean(nearest_name(type, names), known));
+}
 
 void check_region(const Region& region, const std::string& pointer, Report& report) {
   if (coupling::moves(region.kind) && !pointer.starts_with("/zoom/"))

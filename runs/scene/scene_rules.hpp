@@ -39,6 +39,10 @@ void check_contact_law(const Scene& scene, Report& report);
 /// Checks nuclei and contraction of deformable cells. @pre called by check_rules
 void check_inside(const Scene& scene, Report& report);
 
+/// Checks that the scene has a cell type of this name, the value at `pointer`; "" is no name.
+void check_type_name(const Scene& scene, const std::string& type, const std::string& pointer,
+                     Report& report);
+
 /// True if the pipette ever sucks.
 bool has_suction(const PipetteBlock& pipette);
 
