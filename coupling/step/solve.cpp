@@ -75,7 +75,7 @@ Status solve_system(const World& world, Workspace& w, Effort& effort,
     options.max_iterations +=
         std::min(options.max_iterations, kMostIterations - options.max_iterations);
   const bool coarse = world.state.clock.coarse;
-  if (coarse) w.coarse.prepare(w.op, w.position, w.active);
+  if (coarse) w.coarse.prepare(w.op, {w.position, w.active, w.cg.residual, w.cg.product});
   const solve::CgResult result =
       solve::solve_cg({w.op, w.rhs, coarse ? &w.coarse : nullptr, product}, w.move, options, w.cg);
   effort.cg_iterations += result.iterations;
