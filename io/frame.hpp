@@ -32,9 +32,16 @@ struct Table {
   std::vector<Column> columns;
 };
 
+/// Tables of a frame.
+struct FrameTables {
+  Table cells;      ///< rows of /cells: one per biological cell
+  Table interface;  ///< rows of /interface: one per DCM-CBM pair in contact
+  Table contacts;   ///< rows of /contacts: one per contact of cells, if asked for
+};
+
 /// Frame of a run. Points: mesh nodes first, then sphere centres. Cells: triangles first, then one
 /// vertex per sphere.
-struct Frame {
+struct Frame : FrameTables {
   double time_s = 0;
   std::vector<float> point;  ///< [(n_mesh_node + n_sphere) * 3] um
   std::int64_t n_mesh_node = 0;
@@ -45,9 +52,6 @@ struct Frame {
   std::vector<std::uint8_t>
       kind;  ///< [n_triangle + n_sphere] 0 DCM, 1 CBM, 2 vessel or wall, 3 nucleus
   std::vector<Field> cell_data;  ///< rows: triangles, then spheres
-  Table cells;                   ///< rows of /cells: one per biological cell
-  Table interface;               ///< rows of /interface: one per DCM-CBM pair in contact
-  Table contacts;                ///< rows of /contacts: one per contact of cells, if asked for
 };
 
 /// Named scalar of a time series sample.

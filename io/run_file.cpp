@@ -116,6 +116,11 @@ RunFile RunFile::open_for_append(const std::string& path, const RunFileCounts& k
 
 void RunFile::append(const Frame& frame, std::span<const SeriesValue> observables) {
   check_frame(frame);
+  append(source_of(frame), observables);
+}
+
+void RunFile::append(const FrameSource& frame, std::span<const SeriesValue> observables) {
+  check_source(frame);
   RowNames observed = observable_;
   if (!observables.empty()) {
     if (observed.name.empty()) observed = names_of(observables, kObservables);

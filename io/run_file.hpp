@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "io/frame.hpp"
+#include "io/frame_source.hpp"
 #include "io/run_layout.hpp"
 
 namespace acinus::io {
@@ -62,6 +62,7 @@ class RunFile {
   /// Writes a frame and the buffers, and renews the sidecar. Times must increase.
   /// @param observables  one row of /observables, with the same names, units and order each time;
   ///                     empty: this frame has none
+  void append(const FrameSource& frame, std::span<const SeriesValue> observables = {});
   void append(const Frame& frame, std::span<const SeriesValue> observables = {});
   /// Appends one sample of the time series; all samples have the same names and units in the same
   /// order.

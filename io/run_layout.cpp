@@ -60,6 +60,26 @@ void check_all_finite(std::span<const T> value, const std::string& what) {
   }
 }
 
+void check_triangles(std::span<const std::array<std::int64_t, 3>> triangles, std::int64_t n_node) {
+  for (const auto& triangle : triangles)
+    for (const std::int64_t node : triangle)
+      require(node >= 0 && node < n_node,
+              fmt::format("a triangle uses node {} of {}", node, n_node));
+}
+
+void check_fields(const std::vector<Field>& fields, const std::vector<std::span<const float>>& data,
+                  std::int64_t n_row, const std::string& where) {
+  require(data.size() == fields.size(),
+          fmt::format("{} fields of {} data, not {}", data.size(), where, fields.size()));
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    const std::string name = fmt::format("{} field \"{}\"", where, fields[k].name);
+    require(std::ssize(data[k]) == n_row * fields[k].components,
+            fmt::format("{} has {} values, but {} rows of {} are needed", name, data[k].size(),
+                        n_row, fields[k].components));
+    check_all_finite(data[k], name);
+  }
+}
+
 template <class FieldLike>
 void check_field(const FieldLike& field, std::int64_t n_row, const std::string& where) {
   const auto size = static_cast<std::int64_t>(field.value.size());
@@ -109,7 +129,7 @@ void check_same_table(const TableInfo& file, const TableInfo& frame, const std::
 
 }  // namespace
 
-RunLayout layout_of(const Frame& frame) {
+RunLayout layout_of(const FrameSource& frame) {
   RunLayout layout;
   layout.point_data = describe(frame.point_data, {});
   layout.cell_data = describe(frame.cell_data, {"cell_id", "kind"});
@@ -125,19 +145,42 @@ void check_frame(const Frame& frame) {
   require(static_cast<std::int64_t>(frame.point.size()) == 3 * n_point,
           fmt::format("{} coordinates for {} points", frame.point.size(), n_point));
   check_all_finite(std::span(frame.point), "point coordinates");
-  for (const auto& triangle : frame.triangle) {
-    for (const std::int64_t node : triangle) {
-      require(node >= 0 && node < frame.n_mesh_node,
-              fmt::format("a triangle uses node {} of {}", node, frame.n_mesh_node));
-    }
-  }
+  check_triangles(frame.triangle, frame.n_mesh_node);
   require(
       static_cast<std::int64_t>(frame.cell_id.size()) == n_cell && std::ssize(frame.kind) == n_cell,
       fmt::format("{} cell ids and {} kinds for {} triangles and spheres", frame.cell_id.size(),
                   frame.kind.size(), n_cell));
   for (const auto& field : frame.point_data) check_field(field, n_point, "point");
   for (const auto& field : frame.cell_data) check_field(field, n_cell, "cell");
+}
+
+void check_source(const FrameSource& frame) {
+  check_finite(frame.time_s, "time");
+  require(frame.n_mesh_node >= 0 && frame.n_sphere >= 0 && frame.n_triangle >= 0,
+          "negative number of points");
   for (const FrameTable& table : kFrameTables) check_table(frame.*table.rows, table.group);
+}
+
+void check_part(const FrameSource& frame, const PointRows& rows) {
+  const std::int64_t n = std::ssize(rows.point) / 3;
+  require(std::ssize(rows.point) == 3 * n, "a point without three coordinates");
+  check_all_finite(rows.point, "point coordinates");
+  check_fields(frame.point_data, rows.data, n, "point");
+}
+
+void check_part(const FrameSource& frame, const CellRows& rows, std::int64_t first) {
+  const std::int64_t n = std::ssize(rows.cell_id), n_triangle = std::ssize(rows.triangle);
+  const bool fits = n_triangle > 0 ? n == n_triangle && first + n <= frame.n_triangle
+                                   : n == 0 || first >= frame.n_triangle;
+  require(
+      fits && std::ssize(rows.kind) == n,
+      fmt::format("{} cell ids and {} kinds for {} triangles", n, rows.kind.size(), n_triangle));
+  check_triangles(rows.triangle, frame.n_mesh_node);
+  check_fields(frame.cell_data, rows.data, n, "cell");
+}
+
+void check_row_count(std::int64_t n, std::int64_t expected, const std::string& what) {
+  require(n == expected, fmt::format("{} of {} {}", n, expected, what));
 }
 
 void check_same_layout(const RunLayout& file, const RunLayout& frame) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/frame.hpp"
+#include "io/frame_source.hpp"
 
 namespace acinus::io {
 
@@ -60,14 +60,14 @@ struct FrameIndex {
 /// Table with any number of rows per frame: its group in the file and its places in memory.
 struct FrameTable {
   const char* group;
-  Table Frame::*rows;
+  Table FrameTables::*rows;
   TableInfo RunLayout::*info;
   std::int64_t FrameIndex::*end;
 };
 inline constexpr std::array<FrameTable, 3> kFrameTables{
-    {{"/cells", &Frame::cells, &RunLayout::cells, &FrameIndex::cells_end},
-     {"/interface", &Frame::interface, &RunLayout::interface, &FrameIndex::interface_end},
-     {"/contacts", &Frame::contacts, &RunLayout::contacts, &FrameIndex::contacts_end}}};
+    {{"/cells", &FrameTables::cells, &RunLayout::cells, &FrameIndex::cells_end},
+     {"/interface", &FrameTables::interface, &RunLayout::interface, &FrameIndex::interface_end},
+     {"/contacts", &FrameTables::contacts, &RunLayout::contacts, &FrameIndex::contacts_end}}};
 
 /// Names and units of the columns of /series or /observables, in the order of the first row.
 struct RowNames {
@@ -83,11 +83,18 @@ struct StaticHashes {
 
 /// Layout of a frame. Throws Error(kInternal) on an empty or doubled name or one with characters
 /// other than letters, digits, '_', '-' and '.'.
-RunLayout layout_of(const Frame& frame);
+RunLayout layout_of(const FrameSource& frame);
 
 /// Throws Error(kInternal) when sizes do not fit together, an index points nowhere, or a value is
 /// not finite.
 void check_frame(const Frame& frame);
+/// Throws Error(kInternal) when sizes of a source or rows of its tables do not fit together, or a
+/// value is not finite. Its parts are checked when they come.
+void check_source(const FrameSource& frame);
+void check_part(const FrameSource& frame, const PointRows& rows);
+/// @param first  number of the first of these triangles or spheres
+void check_part(const FrameSource& frame, const CellRows& rows, std::int64_t first);
+void check_row_count(std::int64_t n, std::int64_t expected, const std::string& what);
 
 /// Throws Error(kInternal) naming the first difference between a frame's fields and the file's.
 void check_same_layout(const RunLayout& file, const RunLayout& frame);

@@ -2,7 +2,11 @@
 
 #include <xxhash.h>
 
-#include <numeric>
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "io/row_writer.hpp"
 
 namespace acinus::io {
 namespace {
@@ -21,10 +25,25 @@ std::int64_t round_up(std::int64_t row, bool filtered) {
 /// Components of a dataset in HDF5: VTKHDF wants scalars one-dimensional.
 int stored_components(int components) { return components == 1 ? 0 : components; }
 
-template <class T>
-std::uint64_t hash_of(const std::vector<T>& value, std::uint64_t seed = 0) {
-  return XXH3_64bits_withSeed(value.data(), value.size() * sizeof(T), seed);
-}
+/// Hash of values that come in parts.
+class RowHash {
+ public:
+  explicit RowHash(std::span<const std::int64_t> first = {}) : state_(XXH3_createState()) {
+    XXH3_64bits_reset(state_.get());
+    put(first);
+  }
+  template <class T>
+  void put(std::span<const T> values) {
+    XXH3_64bits_update(state_.get(), values.data(), values.size_bytes());
+  }
+  std::uint64_t value() const { return XXH3_64bits_digest(state_.get()); }
+
+ private:
+  struct Free {
+    void operator()(XXH3_state_t* s) const { XXH3_freeState(s); }
+  };
+  std::unique_ptr<XXH3_state_t, Free> state_;
+};
 
 template <class T>
 void write_index_value(File& file, const std::string& name, std::int64_t row, const T& value) {
@@ -57,71 +76,144 @@ std::int64_t write_table(File& file, const std::string& where, const Table& tabl
   return first_row + n_row;
 }
 
-/// Writes triangles and spheres as one part, or repeats the last part when the topology is the
+/// Hashes topology and cell data, and checks their parts.
+StaticHashes hash_surfaces(const FrameSource& frame) {
+  const std::array<std::int64_t, 2> sizes{frame.n_mesh_node, frame.n_sphere};
+  RowHash topology(sizes), id, kind;
+  std::vector<RowHash> field(frame.cell_data.size());
+  std::int64_t n = 0;
+  frame.surfaces([&](const CellRows& rows) {
+    check_part(frame, rows, n);
+    n += std::ssize(rows.cell_id);
+    topology.put(rows.triangle);
+    id.put(rows.cell_id);
+    kind.put(rows.kind);
+    for (std::size_t k = 0; k < field.size(); ++k) field[k].put(rows.data[k]);
+  });
+  check_row_count(n, frame.n_cell(), "triangles and spheres");
+  StaticHashes hash{true, topology.value(), {{"cell_id", id.value()}, {"kind", kind.value()}}};
+  for (std::size_t k = 0; k < field.size(); ++k)
+    hash.cell_data[frame.cell_data[k].name] = field[k].value();
+  return hash;
+}
+
+/// Places triangles and spheres as one part, or repeats the last part when the topology is the
 /// same.
-void write_topology(FrameWrite& w) {
-  const Frame& frame = w.frame;
+/// @return true if they must be written
+bool place_topology(FrameWrite& w) {
   const FrameIndex* last = w.last;
   FrameIndex& index = w.index;
-  w.hash.topology = hash_of(frame.triangle,
-                            hash_of(std::vector<std::int64_t>{frame.n_mesh_node, frame.n_sphere}));
-  if (last != nullptr && w.last_hash.known && w.hash.topology == w.last_hash.topology &&
+  if (last == nullptr) return true;
+  if (w.last_hash.known && w.hash.topology == w.last_hash.topology &&
       last->n_point == index.n_point && last->n_cell == index.n_cell &&
       last->n_connectivity == index.n_connectivity) {
     index.part = last->part;
     index.cell_offset = last->cell_offset;
     index.connectivity_offset = last->connectivity_offset;
-    return;
+    return false;
   }
-  if (last != nullptr) {
-    index.part = last->part + 1;
-    index.connectivity_offset =
-        round_up(last->connectivity_offset + last->n_connectivity, w.filtered);
-    // Readers find a part's n_cell + 1 offsets at row cell_offset + part: that sum must start a
-    // chunk.
-    index.cell_offset =
-        round_up(last->cell_offset + last->n_cell + index.part, w.filtered) - index.part;
+  index.part = last->part + 1;
+  index.connectivity_offset =
+      round_up(last->connectivity_offset + last->n_connectivity, w.filtered);
+  // Readers find a part's n_cell + 1 offsets at row cell_offset + part: that sum must start a
+  // chunk.
+  index.cell_offset =
+      round_up(last->cell_offset + last->n_cell + index.part, w.filtered) - index.part;
+  return true;
+}
+
+/// Places an array of cell data.   @return true if it must be written
+bool place_cell_array(FrameWrite& w, const std::string& name) {
+  std::int64_t& offset = w.index.cell_data_offset[name];
+  if (w.last == nullptr) return true;
+  offset = w.last->cell_data_offset.at(name);
+  const auto known = w.last_hash.cell_data.find(name);
+  if (known != w.last_hash.cell_data.end() && known->second == w.hash.cell_data.at(name) &&
+      w.last->n_cell == w.index.n_cell)
+    return false;
+  offset = round_up(offset + w.last->n_cell, w.filtered);
+  return true;
+}
+
+/// Writes what does not depend on positions: ends of the cells, their types and sizes.
+void write_cell_types(FrameWrite& w) {
+  const FrameIndex& index = w.index;
+  RowWriter<std::int64_t> offsets(w.file, "/VTKHDF/Offsets", index.cell_offset + index.part);
+  RowWriter<std::uint8_t> types(w.file, "/VTKHDF/Types", index.cell_offset);
+  std::int64_t end = 0;
+  offsets.put(end);
+  for (std::int64_t c = 0; c < index.n_cell; ++c) {
+    const bool triangle = c < w.frame.n_triangle;
+    offsets.put(end += triangle ? 3 : 1);
+    types.put(triangle ? kTriangleType : kVertexType);
   }
-  const auto n_triangle = std::ssize(frame.triangle);
-  std::vector<std::int64_t> sphere(frame.n_sphere), offset;
-  std::iota(sphere.begin(), sphere.end(), frame.n_mesh_node);
-  offset.reserve(index.n_cell + 1);
-  offset.push_back(0);
-  for (std::int64_t c = 0; c < index.n_cell; ++c)
-    offset.push_back(offset.back() + (c < n_triangle ? 3 : 1));
-  std::vector<std::uint8_t> type(n_triangle, kTriangleType);
-  type.resize(index.n_cell, kVertexType);
-  if (n_triangle > 0)
-    w.file.write_rows<std::int64_t>("/VTKHDF/Connectivity", index.connectivity_offset,
-                                    std::span(frame.triangle.front().data(), 3 * n_triangle));
-  if (!sphere.empty())
-    w.file.write_rows<std::int64_t>("/VTKHDF/Connectivity",
-                                    index.connectivity_offset + 3 * n_triangle, sphere);
-  w.file.write_rows<std::int64_t>("/VTKHDF/Offsets", index.cell_offset + index.part, offset);
-  w.file.write_rows<std::uint8_t>("/VTKHDF/Types", index.cell_offset, type);
+  offsets.finish();
+  types.finish();
   w.file.write_row<std::int64_t>("/VTKHDF/NumberOfPoints", index.part, index.n_point);
   w.file.write_row<std::int64_t>("/VTKHDF/NumberOfCells", index.part, index.n_cell);
   w.file.write_row<std::int64_t>("/VTKHDF/NumberOfConnectivityIds", index.part,
                                  index.n_connectivity);
 }
 
+/// Writer of an array of cell data, if it has changed.
 template <class T>
-void write_cell_array(FrameWrite& w, const std::string& name, const std::vector<T>& value) {
-  const std::uint64_t now = hash_of(value);
-  w.hash.cell_data[name] = now;
-  std::int64_t offset = 0;
-  if (w.last != nullptr) {
-    offset = w.last->cell_data_offset.at(name);
-    const auto known = w.last_hash.cell_data.find(name);
-    if (known != w.last_hash.cell_data.end() && known->second == now &&
-        w.last->n_cell == w.index.n_cell) {
-      w.index.cell_data_offset[name] = offset;
-      return;
-    }
-    offset = round_up(offset + w.last->n_cell, w.filtered);
+std::optional<RowWriter<T>> cell_writer(FrameWrite& w, const std::string& name,
+                                        int components = 1) {
+  if (!place_cell_array(w, name)) return std::nullopt;
+  return RowWriter<T>(w.file, "/VTKHDF/CellData/" + name, w.index.cell_data_offset.at(name),
+                      components);
+}
+
+void write_surfaces(FrameWrite& w) {
+  const bool topology = place_topology(w);
+  RowWriter<std::int64_t> corners(w.file, "/VTKHDF/Connectivity", w.index.connectivity_offset);
+  auto id = cell_writer<std::int64_t>(w, "cell_id");
+  auto kind = cell_writer<std::uint8_t>(w, "kind");
+  std::vector<std::optional<RowWriter<float>>> field;
+  bool any = topology || id || kind;
+  for (const Field& f : w.frame.cell_data) {
+    field.push_back(cell_writer<float>(w, f.name, f.components));
+    any = any || field.back();
   }
-  w.file.write_rows<T>("/VTKHDF/CellData/" + name, offset, value);
-  w.index.cell_data_offset[name] = offset;
+  if (!any) return;
+  std::int64_t sphere = w.frame.n_mesh_node;  // the point of the next one
+  w.frame.surfaces([&](const CellRows& rows) {
+    if (topology) {
+      for (const auto& t : rows.triangle) corners.put(std::span<const std::int64_t>(t));
+      if (rows.triangle.empty())
+        for (std::size_t k = 0; k < rows.cell_id.size(); ++k) corners.put(sphere++);
+    }
+    if (id) id->put(rows.cell_id);
+    if (kind) kind->put(rows.kind);
+    for (std::size_t k = 0; k < field.size(); ++k)
+      if (field[k]) field[k]->put(rows.data[k]);
+  });
+  corners.finish();
+  if (id) id->finish();
+  if (kind) kind->finish();
+  for (auto& f : field)
+    if (f) f->finish();
+  if (topology) write_cell_types(w);
+}
+
+void write_points(FrameWrite& w) {
+  const FrameSource& frame = w.frame;
+  RowWriter<float> point(w.file, kPoints, w.index.point_offset, 3);
+  std::vector<RowWriter<float>> field;
+  for (const Field& f : frame.point_data) {
+    field.emplace_back(w.file, "/VTKHDF/PointData/" + f.name, w.index.point_offset, f.components);
+    w.index.point_data_offset[f.name] = w.index.point_offset;
+  }
+  std::int64_t n = 0;
+  frame.points([&](const PointRows& rows) {
+    check_part(frame, rows);
+    n += std::ssize(rows.point) / 3;
+    point.put(rows.point);
+    for (std::size_t k = 0; k < field.size(); ++k) field[k].put(rows.data[k]);
+  });
+  check_row_count(n, frame.n_point(), "points");
+  point.finish();
+  for (RowWriter<float>& f : field) f.finish();
 }
 
 }  // namespace
@@ -181,24 +273,17 @@ void create_field_rows(File& file, const RunLayout& layout, bool filtered) {
 }
 
 void write_frame(FrameWrite& w) {
-  const Frame& frame = w.frame;
+  const FrameSource& frame = w.frame;
   FrameIndex& index = w.index;
   index.time_s = frame.time_s;
-  index.n_point = frame.n_mesh_node + frame.n_sphere;
-  index.n_cell = std::ssize(frame.triangle) + frame.n_sphere;
-  index.n_connectivity = 3 * std::ssize(frame.triangle) + frame.n_sphere;
+  index.n_point = frame.n_point();
+  index.n_cell = frame.n_cell();
+  index.n_connectivity = 3 * frame.n_triangle + frame.n_sphere;
   if (w.last != nullptr)
     index.point_offset = round_up(w.last->point_offset + w.last->n_point, w.filtered);
-  w.hash.known = true;
-  w.file.write_rows<float>(kPoints, index.point_offset, frame.point);
-  write_topology(w);
-  for (const auto& field : frame.point_data) {
-    w.file.write_rows<float>("/VTKHDF/PointData/" + field.name, index.point_offset, field.value);
-    index.point_data_offset[field.name] = index.point_offset;
-  }
-  write_cell_array(w, "cell_id", frame.cell_id);
-  write_cell_array(w, "kind", frame.kind);
-  for (const auto& field : frame.cell_data) write_cell_array(w, field.name, field.value);
+  write_points(w);
+  w.hash = hash_surfaces(frame);
+  write_surfaces(w);
   const FrameIndex none;
   const FrameIndex& before = w.last == nullptr ? none : *w.last;
   for (const FrameTable& table : kFrameTables)

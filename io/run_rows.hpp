@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "io/frame.hpp"
+#include "io/frame_source.hpp"
 #include "io/hdf5.hpp"
 #include "io/run_layout.hpp"
 
@@ -59,7 +60,7 @@ std::vector<T> read_column(const h5::File& file, const std::string& name, std::i
 /// Frame in the course of being written.
 struct FrameWrite {
   h5::File& file;
-  const Frame& frame;
+  const FrameSource& frame;
   const FrameIndex* last;         ///< previous frame; null for the first
   const StaticHashes& last_hash;  ///< not known after a restart
   bool filtered;
