@@ -59,6 +59,8 @@ void Simulation::release_state() {
 
 void Simulation::complete_points() { coupling::complete_points(world_, work_); }
 
+void Simulation::refresh_points() { refresh_near_cells(world_, work_); }
+
 double Simulation::time_to_event(const Observer& observer) const {
   if (!is_running()) return time_to_phase_event(world_);
   const double t = time();

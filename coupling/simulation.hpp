@@ -52,6 +52,9 @@ class Simulation {
   void release_state();
   /// Gives every process the points of all cells, before they are measured. Collective.
   void complete_points();
+  /// Brings the points of the cells near own ones, and returns the memory of others: all processes
+  /// have what measures read. Collective.
+  void refresh_points();
 
   /// Advances with all events until `end`, s since t = 0, through start-up if it is not over. A
   /// step that fails at dissolving cells removes them and is repeated.

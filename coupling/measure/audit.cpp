@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <tuple>
@@ -22,8 +23,10 @@ namespace {
 /// (cbm::divide) and grow in place.
 const double kSisterDistance = 2 - std::cbrt(4.0);
 
-void keep_worst(WorstPair& worst, double depth, std::int64_t a, std::int64_t b) {
-  if (depth > worst.depth_um) worst = {depth, {a, b}};
+/// @param a  cell or sphere that comes first
+template <class Body>
+void keep_worst(WorstPair& worst, double depth, const Body& a, std::int64_t b) {
+  if (depth > worst.depth_um) worst = {depth, {a.id, b}, a.number};
 }
 
 /// Records a forbidden depth of a pair, with or without a newborn cell.
@@ -60,18 +63,6 @@ Bodies prepare(const AuditFrame& frame) {
   return bodies;
 }
 
-/// Calls f(k) for all k < n, distributed over the processes, and gathers the results in all.
-template <class T, class F>
-std::vector<T> share_among(const Ranks& ranks, std::size_t n, const F& f) {
-  const auto n_rank = static_cast<std::size_t>(ranks.size()),
-             rank = static_cast<std::size_t>(ranks.rank());
-  const std::size_t first = rank * n / n_rank, last = (rank + 1) * n / n_rank;
-  std::vector<T> own(last - first), all;
-  for_each_part(own.size(), [&](std::size_t k) { own[k] = f(first + k); });
-  ranks.gather<T>(own, all);
-  return all;
-}
-
 /// Depth of a sphere beyond the surface of a closed body on the forbidden side, um.
 double depth_in_fixed(const AuditSphere& sphere, const geometry::AuditBody& fixed,
                       geometry::Location forbidden) {
@@ -81,8 +72,9 @@ double depth_in_fixed(const AuditSphere& sphere, const geometry::AuditBody& fixe
 
 void audit_spheres_at_walls(const AuditFrame& frame, AuditResult& result) {
   for (const AuditSphere& s : frame.spheres) {
+    if (!s.own) continue;
     std::int64_t wall = 0;
-    const auto keep = [&](double depth) { keep_worst(result.cbm_wall, depth, s.id, wall++); };
+    const auto keep = [&](double depth) { keep_worst(result.cbm_wall, depth, s, wall++); };
     for (const AuditWall& w : frame.walls) keep(depth_behind(w, s.center, s.radius));
     for (std::size_t f = 0; f < frame.static_meshes.size(); ++f) {
       const double depth =
@@ -90,25 +82,25 @@ void audit_spheres_at_walls(const AuditFrame& frame, AuditResult& result) {
                          frame.static_meshes[f].inside ? geometry::Location::kOutside
                                                        : geometry::Location::kInside);
       keep(depth);
-      keep_worst(result.center_in_static, depth - s.radius, s.id, static_cast<std::int64_t>(f));
+      keep_worst(result.center_in_static, depth - s.radius, s, static_cast<std::int64_t>(f));
     }
   }
 }
 
 /// Spheres at the surface of the vessels.
-void audit_vessel_surface(const AuditFrame& frame, const Ranks& ranks, AuditResult& result) {
+void audit_vessel_surface(const AuditFrame& frame, AuditResult& result) {
   if (!frame.vessel_surface) return;
   const geometry::AuditBody& surface = *frame.vessel_surface;
-  const std::vector<double> depth =
-      share_among<double>(ranks, frame.spheres.size(), [&](std::size_t k) {
-        const AuditSphere& s = frame.spheres[k];
-        if (!surface.box.overlaps(sphere_box(s.center, s.radius))) return 0.0;
-        return depth_in_fixed(s, surface, geometry::Location::kInside);
-      });
+  std::vector<double> depth(frame.spheres.size(), 0.0);
+  for_each_part(depth.size(), [&](std::size_t k) {
+    const AuditSphere& s = frame.spheres[k];
+    if (s.own && surface.box.overlaps(sphere_box(s.center, s.radius)))
+      depth[k] = depth_in_fixed(s, surface, geometry::Location::kInside);
+  });
   for (std::size_t k = 0; k < depth.size(); ++k) {
     if (depth[k] <= result.cbm_vessel.depth_um) continue;
     const AuditSphere& s = frame.spheres[k];
-    keep_worst(result.cbm_vessel, depth[k], s.id,
+    keep_worst(result.cbm_vessel, depth[k], s,
                geometry::nearest_segment(*frame.vessels, s.center).segment);
   }
 }
@@ -148,6 +140,7 @@ std::vector<AuditQuery> find_queries(const AuditFrame& frame, const Bodies& bodi
   const std::size_t fixed = cone + bodies.cone.size();
   std::vector<AuditQuery> query;
   for (std::size_t c = 0; c < sphere; ++c) {
+    if (!frame.meshes[c].own) continue;
     query.push_back({Partner::kNone, c, 0});
     for (std::size_t f = 0; f < frame.static_meshes.size(); ++f)
       if (frame.static_meshes[f].inside) query.push_back({Partner::kEnvelope, c, f});
@@ -156,6 +149,7 @@ std::vector<AuditQuery> find_queries(const AuditFrame& frame, const Bodies& bodi
   }
   DeepestPair spheres, vessels;
   geometry::for_each_meeting(box, [&](std::size_t a, std::size_t b) {  // a < b: cells come first
+    if (a < sphere ? !frame.meshes[a].own : a < cone && !frame.spheres[a - sphere].own) return;
     if (a < sphere) {
       if (b < sphere)
         query.push_back({Partner::kCell, a, b});
@@ -176,9 +170,9 @@ std::vector<AuditQuery> find_queries(const AuditFrame& frame, const Bodies& bodi
   std::ranges::sort(query, {}, [](const AuditQuery& q) { return std::tuple(q.a, q.partner, q.b); });
   const auto& [i, j] = spheres.pair;
   if (spheres.depth > 0)
-    keep_worst(result.cbm_cbm, spheres.depth, frame.spheres[i].id, frame.spheres[j].id);
+    keep_worst(result.cbm_cbm, spheres.depth, frame.spheres[i], frame.spheres[j].id);
   if (vessels.depth > 0)
-    keep_worst(result.cbm_vessel, vessels.depth, frame.spheres[vessels.pair.first].id,
+    keep_worst(result.cbm_vessel, vessels.depth, frame.spheres[vessels.pair.first],
                static_cast<std::int64_t>(vessels.pair.second));
   return query;
 }
@@ -189,6 +183,7 @@ void keep_cell(const AuditMesh& cell, const AuditAnswer& answer, AuditResult& re
   if (answer.quality < result.min_triangle_quality || result.worst_triangle_cell < 0) {
     result.min_triangle_quality = answer.quality;
     result.worst_triangle_cell = cell.id;
+    result.worst_triangle_number = cell.number;
   }
 }
 
@@ -197,7 +192,7 @@ void audit_walls(const AuditFrame& frame, const AuditMesh& cell, AuditResult& re
   for (std::size_t w = 0; w < frame.walls.size(); ++w)
     for (const Vec3& x : cell.node) {
       const double depth = depth_behind(frame.walls[w], x, 0);
-      keep_worst(result.dcm_wall, depth, cell.id, static_cast<std::int64_t>(w));
+      keep_worst(result.dcm_wall, depth, cell, static_cast<std::int64_t>(w));
       keep_penetration(result, depth, cell.newborn);
     }
 }
@@ -211,8 +206,8 @@ void keep_indentation(const AuditFrame& frame, const AuditMesh& cell, std::int64
       indentation == frame.indentations.end() ? 0 : std::max(0.0, indentation->depth);
   const double beyond = std::max(0.0, depth - explained);
   keep_penetration(result, beyond, cell.newborn);
-  keep_worst(result.dcm_cbm_beyond_indentation, beyond, cell.id, sphere);
-  keep_worst(result.dcm_cbm, depth, cell.id, sphere);
+  keep_worst(result.dcm_cbm_beyond_indentation, beyond, cell, sphere);
+  keep_worst(result.dcm_cbm, depth, cell, sphere);
 }
 
 void keep(const AuditFrame& frame, const Bodies& bodies, const AuditQuery& q,
@@ -229,24 +224,78 @@ void keep(const AuditFrame& frame, const Bodies& bodies, const AuditQuery& q,
     case Partner::kCell: {
       const AuditMesh& second = frame.meshes[q.b];
       keep_penetration(result, depth, cell.newborn || second.newborn);
-      return keep_worst(result.dcm_dcm, depth, cell.id, second.id);
+      return keep_worst(result.dcm_dcm, depth, cell, second.id);
     }
     case Partner::kSphere:
       return keep_indentation(frame, cell, frame.spheres[q.b].id, depth, result);
     case Partner::kCone:
       keep_penetration(result, depth, cell.newborn);
-      return keep_worst(result.dcm_vessel, depth, cell.id, other);
+      return keep_worst(result.dcm_vessel, depth, cell, other);
     case Partner::kFixed:
     case Partner::kEnvelope:
       keep_penetration(result, depth, cell.newborn);
-      return keep_worst(result.dcm_wall, depth, cell.id, n_wall + other);
+      return keep_worst(result.dcm_wall, depth, cell, n_wall + other);
     case Partner::kVesselSurface: {
       keep_penetration(result, depth, cell.newborn);
       if (depth <= result.dcm_vessel.depth_um) return;
       const Vec3 at = 0.5 * (bodies.cell[q.a].low + bodies.cell[q.a].high);
-      return keep_worst(result.dcm_vessel, depth, cell.id,
+      return keep_worst(result.dcm_vessel, depth, cell,
                         geometry::nearest_segment(*frame.vessels, at).segment);
     }
+  }
+}
+
+/// Pair of a process as it is sent; n_id = 0: none.
+struct SentPair {
+  double depth = 0;
+  std::size_t number = 0;
+  std::int64_t n_id = 0;
+  std::array<std::int64_t, 2> id{};
+
+  bool is_worse_than(const SentPair& o) const {
+    if (n_id == 0 || o.n_id == 0) return n_id > o.n_id;
+    return depth != o.depth ? depth > o.depth : number < o.number;
+  }
+};
+
+SentPair sent(const WorstPair& p) {
+  if (p.ids.empty()) return {};
+  return {p.depth_um, p.number, 2, {p.ids[0], p.ids[1]}};
+}
+
+/// Replaces the results of this process by those of all.
+void find_worst_of_all(const Ranks& ranks, AuditResult& r) {
+  const std::array<WorstPair*, 9> pair{
+      &r.dcm_dcm, &r.dcm_vessel, &r.dcm_wall, &r.dcm_cbm,         &r.dcm_cbm_beyond_indentation,
+      &r.cbm_cbm, &r.cbm_vessel, &r.cbm_wall, &r.center_in_static};
+  std::vector<SentPair> own, all;
+  for (const WorstPair* p : pair) own.push_back(sent(*p));
+  const bool meshes = r.worst_triangle_cell >= 0;
+  own.push_back({-r.min_triangle_quality,
+                 r.worst_triangle_number,
+                 meshes ? 1 : 0,
+                 {r.worst_triangle_cell, 0}});
+  const std::size_t n = own.size();
+  ranks.gather<SentPair>(own, all);
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (all[k].is_worse_than(own[k % n])) own[k % n] = all[k];
+  for (std::size_t k = 0; k < pair.size(); ++k)
+    if (own[k].n_id > 0) *pair[k] = {own[k].depth, {own[k].id[0], own[k].id[1]}, own[k].number};
+  if (const SentPair& flattest = own.back(); flattest.n_id > 0) {
+    r.min_triangle_quality = -flattest.depth;
+    r.worst_triangle_cell = flattest.id[0];
+    r.worst_triangle_number = flattest.number;
+  }
+  std::array<double, 2> most{r.max_penetration_um, r.max_penetration_grown_um};
+  ranks.max(most);
+  std::tie(r.max_penetration_um, r.max_penetration_grown_um) = std::tie(most[0], most[1]);
+  const std::array<int, 2> count{r.n_inverted, r.n_self_intersecting};
+  std::vector<int> counts;
+  ranks.gather<int>(count, counts);
+  r.n_inverted = r.n_self_intersecting = 0;
+  for (std::size_t k = 0; k < counts.size(); k += 2) {
+    r.n_inverted += counts[k];
+    r.n_self_intersecting += counts[k + 1];
   }
 }
 
@@ -265,11 +314,11 @@ AuditResult audit(const AuditFrame& frame, const Ranks& ranks) {
   AuditResult result;
   const Bodies bodies = prepare(frame);
   const std::vector<AuditQuery> query = find_queries(frame, bodies, result);
-  const std::vector<AuditAnswer> answer =
-      answer_queries(frame, bodies.cell, bodies.cone, query, ranks);
+  const std::vector<AuditAnswer> answer = answer_queries(frame, bodies.cell, bodies.cone, query);
   for (std::size_t k = 0; k < query.size(); ++k) keep(frame, bodies, query[k], answer[k], result);
-  audit_vessel_surface(frame, ranks, result);
+  audit_vessel_surface(frame, result);
   audit_spheres_at_walls(frame, result);
+  if (!ranks.is_alone()) find_worst_of_all(ranks, result);
   result.max_overlap_cbm_um = result.cbm_cbm.depth_um;
   return result;
 }

@@ -27,6 +27,7 @@ geometry::AuditBody prepare_static_mesh(std::span<const Vec3> node,
 struct WorstPair {
   double depth_um = 0;
   std::vector<std::int64_t> ids;  ///< both partners, empty without overlap
+  std::size_t number = 0;         ///< of the first partner among all cells
 };
 
 struct AuditResult {
@@ -50,8 +51,9 @@ struct AuditResult {
   double min_triangle_quality =
       1;  ///< 4 sqrt(3) area / sum of squared edges: 1 equilateral, 0 flat
   std::int64_t worst_triangle_cell = -1;
-  int n_inverted = 0;           ///< cells of non-positive volume
-  int n_self_intersecting = 0;  ///< cells with intersecting triangles
+  std::size_t worst_triangle_number = 0;  ///< of that cell among all
+  int n_inverted = 0;                     ///< cells of non-positive volume
+  int n_self_intersecting = 0;            ///< cells with intersecting triangles
 };
 
 /// Audits a frame. Depths, um, by kind of partner:
@@ -71,9 +73,10 @@ struct AuditResult {
 /// - cell and sphere: radius - distance to the surface of the cell, or radius + distance with the
 ///   centre inside.
 ///
-/// Touching is not overlap. Cost n log n in the number of bodies; pairs run in parallel, and the
-/// result does not depend on the number of threads. Throws Error if a coordinate is not finite or a
-/// static is not closed.
+/// Touching is not overlap. Cost n log n in the number of bodies; pairs run in parallel. Each
+/// process audits the pairs whose first cell is its own, and all get the worst of all: the result
+/// does not depend on the number of threads and processes. Collective. Throws Error if a coordinate
+/// is not finite or a static is not closed.
 AuditResult audit(const AuditFrame& frame, const Ranks& ranks = Ranks::serial());
 
 }  // namespace acinus::coupling

@@ -17,6 +17,8 @@ struct AuditMesh {
   std::span<const Vec3> node;                    ///< um
   std::span<const std::array<int, 3>> triangle;  ///< closed, outward
   bool newborn = false;                          ///< true while settling after birth
+  bool own = true;         ///< false: another process audits it, if it comes first of a pair
+  std::size_t number = 0;  ///< among all cells; of equal depths that of the first cell counts
 };
 struct AuditSphere {
   std::int64_t id = 0;
@@ -24,6 +26,8 @@ struct AuditSphere {
   double radius = 0;
   double strength = 1;       ///< strength of its forces, see cbm::CellData
   std::int64_t mother = -1;  ///< lineage; sisters start overlapped; -1: initial cell
+  bool own = true;           ///< as of AuditMesh
+  std::size_t number = 0;    ///< likewise
 };
 /// Indentation of a sphere by a cell that their force explains.
 struct KnownIndentation {
@@ -35,7 +39,8 @@ struct AuditStaticMesh {
   bool inside = false;       ///< true: cells are inside it
 };
 
-/// Contents of a frame. Spans may be empty; they must outlive the call.
+/// Contents of a frame: own bodies, and those of others that may touch them. Both are in the order
+/// of their numbers. Spans may be empty; they must outlive the call.
 struct AuditFrame {
   std::span<const AuditMesh> meshes;
   std::span<const AuditSphere> spheres;

@@ -118,7 +118,7 @@ AuditAnswer answer(const AuditFrame& frame, const SweptBodies& cells,
 
 std::vector<AuditAnswer> answer_queries(const AuditFrame& frame, std::span<const Box> box,
                                         std::span<const RoundCone> cone,
-                                        std::span<const AuditQuery> query, const Ranks& ranks) {
+                                        std::span<const AuditQuery> query) {
   const std::vector<std::size_t> place = sweep_places(box);
   std::vector<std::uint32_t> order(query.size());
   std::iota(order.begin(), order.end(), 0);
@@ -127,26 +127,20 @@ std::vector<AuditAnswer> answer_queries(const AuditFrame& frame, std::span<const
     return q.partner == Partner::kCell ? std::max(place[q.a], place[q.b]) : place[q.a];
   });
 
-  const auto n_rank = static_cast<std::size_t>(ranks.size()),
-             rank = static_cast<std::size_t>(ranks.rank());
-  const std::size_t first = rank * query.size() / n_rank, last = (rank + 1) * query.size() / n_rank;
   SweptBodies cells(frame);
-  for (std::size_t k = first; k < last; ++k) cells.expect(query[order[k]], k);
-  std::vector<AuditAnswer> own(last - first), swept;
+  for (std::size_t k = 0; k < query.size(); ++k) cells.expect(query[order[k]], k);
+  std::vector<AuditAnswer> all(query.size());
   std::vector<const AuditQuery*> batch;
-  for (std::size_t from = first; from < last; from += kBatch) {
-    const std::size_t to = std::min(from + kBatch, last);
+  for (std::size_t from = 0; from < query.size(); from += kBatch) {
+    const std::size_t to = std::min(from + kBatch, query.size());
     batch.clear();
     for (std::size_t k = from; k < to; ++k) batch.push_back(&query[order[k]]);
     cells.drop(from);
     cells.build(batch);
     for_each_part(batch.size(), [&](std::size_t k) {
-      own[from - first + k] = answer(frame, cells, cone, *batch[k]);
+      all[order[from + k]] = answer(frame, cells, cone, *batch[k]);
     });
   }
-  ranks.gather<AuditAnswer>(own, swept);
-  std::vector<AuditAnswer> all(query.size());
-  for (std::size_t k = 0; k < order.size(); ++k) all[order[k]] = swept[k];
   return all;
 }
 

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "core/parallel/ranks.hpp"
 #include "coupling/measure/audit_depth.hpp"
 #include "coupling/measure/audit_frame.hpp"
 
@@ -35,11 +34,11 @@ struct AuditAnswer {
   bool self_intersects = false;    ///< likewise
 };
 
-/// Answers queries, distributed over the processes and threads; all processes get all answers.
+/// Answers queries, distributed over the threads.
 /// @param box   [mesh] boxes of the cells
 /// @param cone  vessel segments
 std::vector<AuditAnswer> answer_queries(const AuditFrame& frame, std::span<const Box> box,
                                         std::span<const RoundCone> cone,
-                                        std::span<const AuditQuery> query, const Ranks& ranks);
+                                        std::span<const AuditQuery> query);
 
 }  // namespace acinus::coupling

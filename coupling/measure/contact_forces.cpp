@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "core/numbers/exact_sum.hpp"
+#include "coupling/measure/cell_numbers.hpp"
 #include "coupling/measure/pair_contacts.hpp"
 #include "coupling/migration/fading.hpp"
 #include "dcm/contact/contact_points.hpp"
@@ -16,10 +17,11 @@ namespace {
 struct Places {
   const World& world;
   const Workspace& w;
-  std::vector<Vec3> center;  ///< um
+  CellNumbers numbers;
+  std::vector<Vec3> center;  ///< um, of cells with points
 
   Places(const World& of, const Workspace& work)
-      : world(of), w(work), center(list_centers(of, work)) {}
+      : world(of), w(work), numbers(number_cells(of.state, work)), center(list_centers(of, work)) {}
 
   Vec3 point(const contact::Contact& k) const {
     const contact::SurfaceBody& body = w.dcm.body[k.a];
@@ -49,7 +51,7 @@ void visit_fading(const World& world, const Places& places,
   const State& s = world.state;
   if (s.fading.empty()) return;
   std::unordered_map<std::int64_t, std::size_t> number;
-  for (const std::size_t lane : places.w.dcm.lane_of_body)
+  for (const std::size_t lane : places.numbers.lane)
     number.emplace(s.dcm.lineage[lane], number.size());
   for (const std::int64_t lineage : s.cbm.lineage) number.emplace(lineage, number.size());
   for (const FadingForce& fading : s.fading) {
@@ -78,29 +80,30 @@ void visit_fading(const World& world, const Places& places,
 }  // namespace
 
 std::vector<Vec3> list_centers(const World& world, const Workspace& w) {
+  const CellNumbers numbers = number_cells(world.state, w);
   const std::size_t n_sphere = world.state.cbm.n_cell();
-  std::vector<Vec3> center;
-  center.reserve(w.dcm.body.size() + n_sphere);
-  for (const std::size_t lane : w.dcm.lane_of_body)
-    center.push_back(dcm::cell_center(world.state.dcm, lane));
-  for (std::size_t c = 0; c < n_sphere; ++c) center.push_back(cbm::center_of(world.state.cbm, c));
+  std::vector<Vec3> center(numbers.of_sphere(n_sphere), Vec3::Zero());
+  for (std::size_t b = 0; b < numbers.of_body.size(); ++b)
+    center[numbers.of_body[b]] = dcm::cell_center(world.state.dcm, w.dcm.lane_of_body[b]);
+  for (std::size_t c = 0; c < n_sphere; ++c)
+    if (!w.cbm.is_absent(c)) center[numbers.of_sphere(c)] = cbm::center_of(world.state.cbm, c);
   return center;
 }
 
 void visit_contacts(const World& world, const Workspace& w,
                     const std::function<void(const ContactForce&)>& visit) {
   const Places places(world, w);
-  const std::size_t n_body = w.dcm.body.size();
+  const CellNumbers& numbers = places.numbers;
   const auto visit_record = [&](const contact::Contact& k) {
     if (k.partner == contact::Partner::kNucleus) return;  // within a cell
     const bool sphere = k.point == contact::kWhole;
     ContactForce f;
-    f.a = static_cast<std::size_t>(k.a) + (sphere ? n_body : 0);
+    f.a = sphere ? numbers.of_sphere(k.a) : numbers.of_body[k.a];
     f.force = k.force * k.normal;
     f.normal = k.normal;
     f.record = &k;
     if (contact::is_cell(k.partner)) {
-      f.b = static_cast<std::size_t>(k.b) + (k.partner == contact::Partner::kSphere ? n_body : 0);
+      f.b = k.partner == contact::Partner::kSphere ? numbers.of_sphere(k.b) : numbers.of_body[k.b];
       f.touching = f.a != f.b && (sphere || f.force.squaredNorm() > 0);
     } else {
       f.kind = k.partner;

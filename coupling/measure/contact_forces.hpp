@@ -34,7 +34,7 @@ struct ContactForce {
   bool fades = false;
 };
 
-/// Centres of all cells in the order of measure_cells, um.
+/// Centres of all cells in the order of measure_cells, um; zero for cells without points here.
 std::vector<Vec3> list_centers(const World& world, const Workspace& work);
 
 /// Calls `visit` with every contact, then with every fading pair force (fading.hpp).   @pre observe

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "contact/cohesive.hpp"
+#include "coupling/measure/cell_numbers.hpp"
 #include "dcm/contact/contact_loads.hpp"
 #include "dcm/contact/contact_points.hpp"
 
@@ -17,12 +18,15 @@ using contact::Contact, contact::Partner;
 class ContactAreas {
  public:
   ContactAreas(const World& world, const Workspace& w, const std::vector<CellMeasure>& cells)
-      : options_(world.params.dcm_contact), w_(w), cells_(cells) {
+      : options_(world.params.dcm_contact),
+        w_(w),
+        cells_(cells),
+        numbers_(number_cells(world.state, w)) {
     for (std::size_t k = 0; k < w.dcm.body.size(); ++k) {
       double whole = 0;
       const std::size_t n = contact::n_points(w.dcm.body[k], options_.quadrature);
       for (std::size_t p = 0; p < n; ++p) whole += point_area(k, static_cast<int>(p));
-      scale_.push_back(whole > 0 ? cells[k].area / whole : 0);
+      scale_.push_back(whole > 0 ? cells[numbers_.of_body[k]].area / whole : 0);
     }
   }
 
@@ -52,7 +56,7 @@ class ContactAreas {
  private:
   double point_area(std::size_t body, int point) const {
     return dcm::point_area(*w_.dcm.body[body].topology, options_.quadrature, point,
-                           cells_[body].radius);
+                           cells_[numbers_.of_body[body]].radius);
   }
   double share_of(const Contact& k) const {
     return contact::contact_share(k.gap, options_.friction_range);
@@ -73,6 +77,7 @@ class ContactAreas {
   const dcm::ContactParams& options_;
   const Workspace& w_;
   const std::vector<CellMeasure>& cells_;
+  CellNumbers numbers_;
   std::vector<double> scale_;  ///< [body] present area over that of its points
 };
 

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/disjoint_sets.hpp"
+#include "coupling/measure/cell_numbers.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -106,7 +107,7 @@ std::vector<CellContact> sum_contacts(const World& world, const Workspace& w,
     add_part(c, part, list[at]);
   });
   const std::vector<Vec3> center = list_centers(world, w);
-  const std::size_t n_deformable = w.dcm.body.size();
+  const std::size_t n_deformable = number_cells(world.state, w).lane.size();
   for (std::size_t k = 0; k < keys.size(); ++k) {
     CellContact& c = list[k];
     std::tie(c.a, c.partner, c.index) = std::tie(keys[k].a, keys[k].kind, keys[k].index);

@@ -1,5 +1,5 @@
 #pragma once
-/// Measures of each cell and node, from loads assembled at one time.
+/// Measures of each cell, from loads assembled at one time. Those of nodes: node_measures.hpp
 
 #include <array>
 #include <cstdint>
@@ -37,6 +37,7 @@ struct CellMeasure {
   double migration_force = 0;  ///< nN, active force on the cell
   Fate fate = Fate::kIdle;     ///< stage in its life
   double progress = 0;         ///< of its cycle by reference volume: 0 at birth, 1 at division
+  bool in_cycle = false;       ///< true if it grows to a division, or would if nothing held it
   double growth_rate = 0;      ///< um^3/s, of the reference volume; negative in lysis
 };
 
@@ -55,14 +56,5 @@ void observe(const World& world, Workspace& work);
 /// Measures of all cells, deformable ones first, in storage order, over all processes. Collective
 /// call, like all measures below.   @pre observe
 std::vector<CellMeasure> measure_cells(const World& world, const Workspace& work);
-
-/// Fields on the nodes of the deformable cells, body by body.   @pre observe
-struct NodeMeasure {
-  std::vector<Vec3> force;       ///< nN, contact force
-  std::vector<double> pressure;  ///< kPa, normal contact traction, positive pressing inward
-  std::vector<double>
-      tension;  ///< nN/um, cortex tension [VanLiedekerke2020, Eq. (8)] plus membrane
-};
-NodeMeasure measure_nodes(const World& world, const Workspace& work);
 
 }  // namespace acinus::coupling

@@ -2,6 +2,7 @@
 /// Check of nuclei outside their cortex.
 
 #include <cstdint>
+#include <span>
 
 #include "coupling/world/world.hpp"
 
@@ -15,6 +16,7 @@ struct NucleusLeak {
 
 /// Measures the deepest node of a nucleus outside its cortex, without code shared with the contact
 /// search (geometry/audit_body.hpp).
-NucleusLeak measure_nucleus_leak(const State& state);
+/// @param ghost  [lanes] not 0: the cell is left out; empty: none is
+NucleusLeak measure_nucleus_leak(const State& state, std::span<const std::uint8_t> ghost = {});
 
 }  // namespace acinus::coupling

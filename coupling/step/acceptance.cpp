@@ -45,7 +45,7 @@ double edge_of(const World& world, const Workspace& w, std::size_t lane) {
 }
 
 /// Lane index (dcm lanes, then cbm cells) of an address.
-std::size_t lane_of(const Workspace& w, Address a) {
+std::size_t lane_at(const Workspace& w, Address a) {
   const auto& blocks = w.system.block;
   const std::size_t row = a / kPointStride;
   const auto it =
@@ -256,8 +256,8 @@ DeepContact describe_contact(const World& world, const Workspace& w, std::size_t
   DeepContact deep;
   deep.inner = kind == contact::ContactKind::kNucleus;
   deep.pair = link.b.exists();
-  deep.a = lane_of(w, solve::address_of(link.a.point[0]));
-  deep.b = deep.pair ? lane_of(w, solve::address_of(link.b.point[0])) : deep.a;
+  deep.a = lane_at(w, solve::address_of(link.a.point[0]));
+  deep.b = deep.pair ? lane_at(w, solve::address_of(link.b.point[0])) : deep.a;
   deep.depth = depth_after(world, w, l);
   const bool of_cells =
       kind == contact::ContactKind::kSurface || kind == contact::ContactKind::kInterface;

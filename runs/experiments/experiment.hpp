@@ -40,6 +40,9 @@ struct ExperimentRow {
   /// Adds figures of the whole run to `measures` of summary.json.
   void (*add_figures)(const Scene& scene, const Measures& measures,
                       nlohmann::ordered_json& figures) = nullptr;
+  /// True if it reads of cells only what the snapshot has. Otherwise every process gets the points
+  /// of all cells before a frame and before births.
+  bool reads_snapshot_only = false;
 };
 
 #define ACINUS_ROW(constant, name) extern const ExperimentRow name##_experiment;

@@ -220,7 +220,8 @@ void sample_monolayer(const ObservedFrame& frame, ObservedRun& observed) {
 const ExperimentRow spheroid_experiment{
     .meaning = "pressure, density and shape of a tissue that grows in space",
     .columns = spheroid_columns,
-    .sample = sample_spheroid};
+    .sample = sample_spheroid,
+    .reads_snapshot_only = true};
 
 const ExperimentRow monolayer_experiment{
     .meaning = "pressure, density and shape of a tissue that grows in a plane",

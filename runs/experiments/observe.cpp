@@ -29,6 +29,10 @@ double latest(const Measures& m, const Sizes& before, const std::string& name) {
 
 }  // namespace
 
+bool reads_points(const Scene& scene, const coupling::World& world) {
+  return !experiment_row(scene.experiment).reads_snapshot_only || samples_points(world);
+}
+
 std::vector<io::SeriesValue> observe_frame(const ObservedFrame& frame, ObservedRun& observed) {
   Measures& m = observed.measures;
   const Sizes before = sizes_of(m);

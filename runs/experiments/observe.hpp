@@ -14,6 +14,9 @@
 
 namespace acinus::runs {
 
+/// True if observables of a scene read the points of all cells, which every process must have then.
+bool reads_points(const Scene& scene, const coupling::World& world);
+
 /// Measures a frame of the run phase: adds to all series and returns the row of /observables, time
 /// first. A series without a value at this frame is 0 there.
 std::vector<io::SeriesValue> observe_frame(const ObservedFrame& frame, ObservedRun& observed);

@@ -92,6 +92,7 @@ void sample_patch(const ObservedFrame& frame, ObservedRun& observed) {
 const ExperimentRow patch_experiment{
     .meaning = "pressure and density of both models in the two halves of a box",
     .columns = patch_columns,
-    .sample = sample_patch};
+    .sample = sample_patch,
+    .reads_snapshot_only = true};
 
 }  // namespace acinus::runs

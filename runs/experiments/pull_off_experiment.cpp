@@ -10,6 +10,7 @@
 #include "coupling/apparatus/pull/pull.hpp"
 #include "coupling/measure/adhesion.hpp"
 #include "coupling/measure/measure.hpp"
+#include "coupling/measure/node_measures.hpp"
 #include "coupling/world/cell.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/experiments/figures.hpp"

@@ -23,6 +23,12 @@ namespace {
 using coupling::CellMeasure;
 using coupling::Reaction;
 
+bool is_inhibited_by_density(const coupling::Params& p) {
+  return std::ranges::any_of(p.life.type, [](const coupling::CycleParams& type) {
+    return type.inhibition.by == coupling::InhibitedBy::kDensity;
+  });
+}
+
 void add_reaction(const std::string& name, const Reaction& r, Measures& m) {
   m[name + "_force_nN"].push_back(r.normal);
   for (int k = 0; k < 3; ++k)
@@ -107,17 +113,14 @@ void sample_growth(const ObservedFrame& frame, Measures& m) {
   const coupling::Params& p = frame.world.params;
   double slowest = 1, resting = 0;
   if (!s.cycle.empty()) {
-    const bool by_density = std::ranges::any_of(p.life.type, [](const coupling::CycleParams& type) {
-      return type.inhibition.by == coupling::InhibitedBy::kDensity;
-    });
+    const bool by_density = is_inhibited_by_density(p);
     std::vector<double> density(s.cycle.size());
     if (by_density) density = coupling::local_densities(frame.world);
     std::size_t k = 0;
     coupling::for_each_cell(s, [&](const coupling::Cell& c) {
       const CellMeasure& cell = frame.snapshot.cells[k++];
-      const coupling::Cycle& cycle = s.cycle[c.index];
-      if (cycle.fate == coupling::Fate::kRest) ++resting;
-      if (cycle.duration <= 0 || cycle.fate == coupling::Fate::kLyse) return;
+      if (cell.fate == coupling::Fate::kRest) ++resting;
+      if (!cell.in_cycle) return;
       const coupling::Crowding now{cell.pressure, cell.volume / sphere_volume(cell.radius),
                                    density[c.index]};
       slowest =
@@ -198,6 +201,8 @@ void sample_tissue(const ObservedFrame& frame, Measures& m) {
   sample_substances(frame.world, m);
   if (!frame.scene.rules.empty()) sample_rules(frame, m);
 }
+
+bool samples_points(const coupling::World& world) { return is_inhibited_by_density(world.params); }
 
 std::vector<std::string> wall_names(const contact::Boundary& boundary) {
   std::vector<std::string> names;

@@ -9,11 +9,10 @@
 
 namespace acinus::runs {
 
-/// Cells, nodes and interface forces at a time.
+/// Cells and interface forces at a time.
 struct Snapshot {
   double time = 0;  ///< s since t = 0
   std::vector<coupling::CellMeasure> cells;
-  coupling::NodeMeasure nodes;
   std::vector<coupling::InterfaceForce> interface;
 };
 /// Measures of the world as it is; assembles its loads in `work`.

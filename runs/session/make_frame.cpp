@@ -1,28 +1,25 @@
 #include "runs/session/make_frame.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
+#include <array>
+#include <functional>
+#include <span>
 #include <tuple>
 #include <utility>
 
-#include "contact/jkr.hpp"
 #include "contact/wall_mesh.hpp"
 #include "core/error.hpp"
 #include "coupling/generate/pipette_surface.hpp"
 #include "coupling/generate/vessel_surface.hpp"
+#include "coupling/measure/node_measures.hpp"
 #include "coupling/substances/fields.hpp"
 #include "coupling/world/cell.hpp"
 
 namespace acinus::runs {
 namespace {
 
-using coupling::CellMeasure, coupling::NodeMeasure;
+using coupling::CellMeasure;
 
 constexpr std::uint8_t kShell = 0, kSphere = 1, kBoundary = 2, kNucleus = 3;
-
-/// Appends one component to a field, in single precision.
-void push(io::Field& field, double value) { field.value.push_back(static_cast<float>(value)); }
 
 io::Table cell_table(const std::vector<CellMeasure>& cells) {
   io::Table t;
@@ -106,118 +103,119 @@ io::Table interface_table(const std::vector<coupling::InterfaceForce>& forces) {
   return {{dcm, cbm}, {force, area, gap}};
 }
 
-/// Builder of a frame: appends points, triangles, spheres and their data.
-class FrameBuilder {
+/// Fields of a point, in the order of PointBuffer.
+std::vector<io::Field> point_fields() {
+  return {{"force", "nN", 3, {}}, {"contact_pressure", "kPa", 1, {}}, {"tension", "nN/um", 1, {}}};
+}
+
+/// Fields of a triangle or sphere, in the order of values_of().
+std::vector<io::Field> cell_fields() {
+  return {{"cell_type", "1", 1, {}},       {"volume", "um^3", 1, {}},
+          {"pressure", "kPa", 1, {}},      {"cytosol_pressure", "kPa", 1, {}},
+          {"radius", "um", 1, {}},         {"leader", "1", 1, {}},
+          {"strength", "1", 1, {}},        {"phase", "1", 1, {}},
+          {"growth_rate", "um^3/s", 1, {}}};
+}
+constexpr std::size_t kCellFields = 9;
+
+/// Values of a cell, or of boundary: null.
+std::array<float, kCellFields> values_of(const CellMeasure* c, double sphere_radius) {
+  const auto number = [](double v) { return static_cast<float>(v); };
+  if (c == nullptr) return {-1, 0, 0, 0, number(sphere_radius), 0, 1, 0, 0};
+  return {number(c->type),       number(c->volume),
+          number(c->pressure),   number(c->cytosol_pressure),
+          number(sphere_radius), c->leader ? 1.0F : 0.0F,
+          number(c->strength),   number(static_cast<int>(c->fate)),
+          number(c->growth_rate)};
+}
+
+/// Points on their way to the file.
+class PointBuffer {
  public:
-  /// @param n_point     nodes of surfaces, and centres of spheres
-  /// @param n_triangle  of surfaces
-  FrameBuilder(const Snapshot& snapshot, std::size_t n_point, std::size_t n_triangle,
-               std::size_t n_sphere)
-      : snapshot_(snapshot) {
-    frame_.time_s = snapshot.time;
-    const std::size_t n_cell = n_triangle + n_sphere;
-    frame_.point.reserve(3 * n_point);
-    for (io::Field* f : {&force_, &contact_, &tension_})
-      f->value.reserve(n_point * static_cast<std::size_t>(f->components));
-    frame_.triangle.reserve(n_triangle);
-    frame_.cell_id.reserve(n_cell);
-    frame_.kind.reserve(n_cell);
-    for (io::Field* f : {&type_, &volume_, &pressure_, &cytosol_, &radius_, &leader_, &strength_})
-      f->value.reserve(n_cell);
-  }
+  explicit PointBuffer(const std::function<void(const io::PointRows&)>& take) : take_(take) {}
 
-  void add_cell(const contact::SurfaceBody& body, const CellMeasure& cell) {
-    const NodeMeasure& nodes = snapshot_.nodes;
-    for (const Vec3& x : body.node) {
-      push_point(x, nodes.force[node_], nodes.pressure[node_], nodes.tension[node_]);
-      ++node_;
-    }
-    add_triangles(*body.triangle, body.node.size(), &cell, kShell);
+  void put(const Vec3& x, const Vec3& force, double pressure, double tension) {
+    for (int k = 0; k < 3; ++k) point_.push_back(static_cast<float>(x[k]));
+    for (int k = 0; k < 3; ++k) force_.push_back(static_cast<float>(force[k]));
+    pressure_.push_back(static_cast<float>(pressure));
+    tension_.push_back(static_cast<float>(tension));
+    if (pressure_.size() == kMost) hand_over();
   }
+  void put_bare(const Vec3& x) { put(x, Vec3::Zero(), 0, 0); }
 
-  void add_nucleus(const std::vector<Vec3>& node, const std::vector<std::array<int, 3>>& triangle,
-                   const CellMeasure& cell) {
-    for (const Vec3& x : node) push_point(x, Vec3::Zero(), 0, 0);
-    add_triangles(triangle, node.size(), &cell, kNucleus);
-  }
-
-  void add_surface(const std::vector<Vec3>& node, const std::vector<std::array<int, 3>>& triangle) {
-    for (const Vec3& x : node) push_point(x, Vec3::Zero(), 0, 0);
-    add_triangles(triangle, node.size(), nullptr, kBoundary);
-  }
-
-  /// Appends a sphere.
-  /// @pre all surfaces are appended
-  void add_sphere(const CellMeasure& cell) {
-    push_point(cell.center, Vec3::Zero(), 0, 0);
-    push_cell(&cell, kSphere, cell.radius);
-    ++frame_.n_sphere;
-  }
-
-  io::Frame finish() {
-    frame_.n_mesh_node = base_;
-    for (io::Field* f : {&force_, &contact_, &tension_}) frame_.point_data.push_back(std::move(*f));
-    for (io::Field* f : {&type_, &volume_, &pressure_, &cytosol_, &radius_, &leader_, &strength_,
-                         &phase_, &growth_})
-      frame_.cell_data.push_back(std::move(*f));
-    frame_.cells = cell_table(snapshot_.cells);
-    frame_.interface = interface_table(snapshot_.interface);
-    frame_.contacts = contact_table({}, snapshot_.cells);
-    return std::move(frame_);
+  void hand_over() {
+    take_({point_, {force_, pressure_, tension_}});
+    for (auto* v : {&point_, &force_, &pressure_, &tension_}) v->clear();
   }
 
  private:
-  void push_point(const Vec3& x, const Vec3& nodal_force, double pressure, double tension) {
-    for (int k = 0; k < 3; ++k) frame_.point.push_back(static_cast<float>(x[k]));
-    for (int k = 0; k < 3; ++k) push(force_, nodal_force[k]);
-    push(contact_, pressure);
-    push(tension_, tension);
-  }
-  void push_cell(const CellMeasure* c, std::uint8_t kind, double sphere_radius) {
-    frame_.cell_id.push_back(c ? c->id : -1);
-    frame_.kind.push_back(kind);
-    push(type_, c ? c->type : -1);
-    push(volume_, c ? c->volume : 0);
-    push(pressure_, c ? c->pressure : 0);
-    push(cytosol_, c ? c->cytosol_pressure : 0);
-    push(radius_, sphere_radius);
-    push(leader_, c && c->leader ? 1 : 0);
-    push(strength_, c ? c->strength : 1);
-    push(phase_, c ? static_cast<int>(c->fate) : 0);
-    push(growth_, c ? c->growth_rate : 0);
-  }
-  void add_triangles(const std::vector<std::array<int, 3>>& triangle, std::size_t n_node,
-                     const CellMeasure* cell, std::uint8_t kind) {
-    for (const auto& t : triangle) {
-      frame_.triangle.push_back({base_ + t[0], base_ + t[1], base_ + t[2]});
-      push_cell(cell, kind, 0);
-    }
-    base_ += static_cast<std::int64_t>(n_node);
-  }
-
-  const Snapshot& snapshot_;
-  io::Frame frame_;
-  io::Field force_{"force", "nN", 3, {}}, contact_{"contact_pressure", "kPa", 1, {}},
-      tension_{"tension", "nN/um", 1, {}};
-  io::Field type_{"cell_type", "1", 1, {}}, volume_{"volume", "um^3", 1, {}},
-      pressure_{"pressure", "kPa", 1, {}}, cytosol_{"cytosol_pressure", "kPa", 1, {}},
-      radius_{"radius", "um", 1, {}}, leader_{"leader", "1", 1, {}},
-      strength_{"strength", "1", 1, {}}, phase_{"phase", "1", 1, {}},
-      growth_{"growth_rate", "um^3/s", 1, {}};
-  std::int64_t base_ = 0;  ///< number of nodes so far
-  std::size_t node_ = 0;   ///< number of cell nodes so far
+  static constexpr std::size_t kMost = 10'000;
+  const std::function<void(const io::PointRows&)>& take_;
+  std::vector<float> point_, force_, pressure_, tension_;
 };
 
-void add_nuclei(const dcm::State& s, const coupling::Workspace& w, const Snapshot& snapshot,
-                FrameBuilder& builder) {
-  std::vector<Vec3> node;
-  for (std::size_t b = 0; b < w.dcm.body.size(); ++b) {
-    const std::size_t lane = w.dcm.lane_of_body[b];
-    const dcm::NucleusMesh& nucleus = s.group[lane / kLanes].nucleus;
-    if (!nucleus.exists()) continue;
-    dcm::copy_nucleus(s, lane, node);
-    builder.add_nucleus(node, nucleus.topology->triangle, snapshot.cells[b]);
+/// Triangles of one surface, or spheres, on their way to the file.
+class SurfaceBuffer {
+ public:
+  explicit SurfaceBuffer(const std::function<void(const io::CellRows&)>& take) : take_(take) {}
+
+  /// Hands over the triangles of a surface.
+  /// @param n_node  nodes of the surface, which come after those of the surfaces before
+  void put_surface(const std::vector<std::array<int, 3>>& triangle, std::size_t n_node,
+                   const CellMeasure* cell, std::uint8_t kind) {
+    for (const auto& t : triangle) {
+      triangle_.push_back({base_ + t[0], base_ + t[1], base_ + t[2]});
+      put_cell(cell, kind, 0);
+    }
+    base_ += static_cast<std::int64_t>(n_node);
+    hand_over();
   }
+  /// @pre all surfaces are handed over
+  void put_sphere(const CellMeasure& cell) {
+    constexpr std::size_t kMost = 10'000;
+    put_cell(&cell, kSphere, cell.radius);
+    if (id_.size() == kMost) hand_over();
+  }
+  void hand_over() {
+    if (id_.empty()) return;
+    io::CellRows rows{triangle_, id_, kind_, {}};
+    for (const std::vector<float>& v : data_) rows.data.emplace_back(v);
+    take_(rows);
+    triangle_.clear();
+    id_.clear();
+    kind_.clear();
+    for (std::vector<float>& v : data_) v.clear();
+  }
+
+ private:
+  void put_cell(const CellMeasure* c, std::uint8_t kind, double sphere_radius) {
+    id_.push_back(c != nullptr ? c->id : -1);
+    kind_.push_back(kind);
+    const std::array<float, kCellFields> value = values_of(c, sphere_radius);
+    for (std::size_t k = 0; k < kCellFields; ++k) data_[k].push_back(value[k]);
+  }
+
+  const std::function<void(const io::CellRows&)>& take_;
+  std::vector<std::array<std::int64_t, 3>> triangle_;
+  std::vector<std::int64_t> id_;
+  std::vector<std::uint8_t> kind_;
+  std::array<std::vector<float>, kCellFields> data_;
+  std::int64_t base_ = 0;  ///< number of nodes so far
+};
+
+/// Calls f(group, k) for deformable cells, k in the order of measure_cells.
+template <class F>
+void for_each_shell(const dcm::State& s, const F& f) {
+  std::size_t k = 0;
+  for (std::size_t lane = 0; lane < s.n_lane(); ++lane)
+    if (s.active(lane)) f(s.group[lane / kLanes], k++);
+}
+
+/// Calls f(nodes, triangles) for the surfaces of the boundary.
+template <class F>
+void for_each_wall(const contact::Boundary& boundary, const geometry::Surface& drawn, const F& f) {
+  f(drawn.node, drawn.triangle);
+  for (const contact::StaticMesh& m : boundary.meshes) f(m.body.node, *m.triangle);
 }
 
 }  // namespace
@@ -268,102 +266,74 @@ io::Table contact_table(const std::vector<coupling::CellContact>& contacts,
   return {{a, b, partner}, {area_a, area_b, force, normal}};
 }
 
+io::FrameSource make_frame_source(const coupling::World& world, const coupling::Workspace& w,
+                                  const Snapshot& snapshot, const geometry::Surface& drawn) {
+  const dcm::State& shells = world.state.dcm;
+  const contact::Boundary& boundary = world.params.boundary;
+  io::FrameSource source;
+  source.time_s = snapshot.time;
+  source.point_data = point_fields();
+  source.cell_data = cell_fields();
+  source.cells = cell_table(snapshot.cells);
+  source.interface = interface_table(snapshot.interface);
+  source.contacts = contact_table({}, snapshot.cells);
+  std::size_t n_shell = 0;
+  const auto count = [&source](std::size_t node, std::size_t triangle) {
+    source.n_mesh_node += static_cast<std::int64_t>(node);
+    source.n_triangle += static_cast<std::int64_t>(triangle);
+  };
+  for_each_shell(shells, [&](const dcm::Group& g, std::size_t) {
+    ++n_shell;
+    count(g.topology->n_node, g.topology->triangle.size());
+    if (g.nucleus.exists()) count(g.nucleus.n_node(), g.nucleus.topology->triangle.size());
+  });
+  for_each_wall(boundary, drawn, [&](const auto& node, const auto& triangle) {
+    count(node.size(), triangle.size());
+  });
+  source.n_sphere = std::ssize(snapshot.cells) - static_cast<std::int64_t>(n_shell);
+  source.points = [&, n_shell](const auto& take) {
+    PointBuffer out(take);
+    coupling::visit_nodes(world, w, [&out](std::span<const coupling::NodeValue> nodes) {
+      for (const coupling::NodeValue& n : nodes)
+        out.put(n.position, n.force, n.pressure, n.tension);
+    });
+    coupling::visit_nuclei(world, w, [&out](std::span<const Vec3> nodes) {
+      for (const Vec3& x : nodes) out.put_bare(x);
+    });
+    for_each_wall(boundary, drawn, [&](const auto& node, const auto&) {
+      for (const Vec3& x : node) out.put_bare(x);
+    });
+    for (std::size_t k = n_shell; k < snapshot.cells.size(); ++k)
+      out.put_bare(snapshot.cells[k].center);
+    out.hand_over();
+  };
+  source.surfaces = [&, n_shell](const auto& take) {
+    SurfaceBuffer out(take);
+    for_each_shell(shells, [&](const dcm::Group& g, std::size_t k) {
+      out.put_surface(g.topology->triangle, g.topology->n_node, &snapshot.cells[k], kShell);
+    });
+    for_each_shell(shells, [&](const dcm::Group& g, std::size_t k) {
+      if (g.nucleus.exists())
+        out.put_surface(g.nucleus.topology->triangle, g.nucleus.n_node(), &snapshot.cells[k],
+                        kNucleus);
+    });
+    for_each_wall(boundary, drawn, [&](const auto& node, const auto& triangle) {
+      out.put_surface(triangle, node.size(), nullptr, kBoundary);
+    });
+    for (std::size_t k = n_shell; k < snapshot.cells.size(); ++k) out.put_sphere(snapshot.cells[k]);
+    out.hand_over();
+  };
+  return source;
+}
+
+void send_points(const coupling::World& world, const coupling::Workspace& w) {
+  coupling::visit_nodes(world, w, {});
+  coupling::visit_nuclei(world, w, {});
+}
+
 io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
                      const Snapshot& snapshot, const geometry::Surface& boundary) {
-  const std::size_t n_body = w.dcm.body.size(), n_sphere = snapshot.cells.size() - n_body;
-  std::size_t n_point = boundary.node.size() + n_sphere, n_triangle = boundary.triangle.size();
-  const auto count = [&](std::size_t node, std::size_t triangle) {
-    n_point += node;
-    n_triangle += triangle;
-  };
-  for (std::size_t b = 0; b < n_body; ++b) {
-    count(w.dcm.body[b].node.size(), w.dcm.body[b].triangle->size());
-    const dcm::NucleusMesh& nucleus = world.state.dcm.group[w.dcm.lane_of_body[b] / kLanes].nucleus;
-    if (nucleus.exists()) count(nucleus.topology->rest.size(), nucleus.topology->triangle.size());
-  }
-  for (const contact::StaticMesh& m : world.params.boundary.meshes)
-    count(m.body.node.size(), m.triangle->size());
-  FrameBuilder builder(snapshot, n_point, n_triangle, n_sphere);
-  for (std::size_t b = 0; b < n_body; ++b) builder.add_cell(w.dcm.body[b], snapshot.cells[b]);
-  if (dcm::has_nuclei(world.state.dcm)) add_nuclei(world.state.dcm, w, snapshot, builder);
-  builder.add_surface(boundary.node, boundary.triangle);
-  for (const contact::StaticMesh& m : world.params.boundary.meshes)
-    builder.add_surface(m.body.node, *m.triangle);
-  for (std::size_t k = n_body; k < snapshot.cells.size(); ++k)
-    builder.add_sphere(snapshot.cells[k]);
-  return builder.finish();
-}
-
-namespace {
-
-/// Indentation of each deformable cell by a sphere that the contact force explains, um: half the
-/// JKR overlap of two such spheres under that force, the share of the sphere's own side.
-std::vector<coupling::KnownIndentation> explained_indentations(const coupling::World& world,
-                                                               const Snapshot& snapshot) {
-  const cbm::State& s = world.state.cbm;
-  const coupling::CellIndex cells = coupling::index_cells(world.state);
-  auto find = [&](std::int64_t id, bool deformable) {
-    return std::ranges::find_if(snapshot.cells, [&](const CellMeasure& c) {
-      return c.id == id && c.deformable == deformable;
-    });
-  };
-  std::vector<coupling::KnownIndentation> indentations;
-  for (const coupling::InterfaceForce& f : snapshot.interface) {
-    const auto cell = find(f.dcm_id, true), sphere = find(f.cbm_id, false);
-    const std::size_t k = cells.at(f.cbm_id).at;
-    const cbm::Params& p = world.params.cbm[s.type[k]];
-    const contact::SphereBody body{sphere->radius, s.young[k], p.poisson};
-    const double press = f.force.dot((cell->center - sphere->center).normalized());
-    indentations.push_back(
-        {f.dcm_id, f.cbm_id,
-         0.5 * contact::jkr_overlap(contact::reduced_pair(body, body, p.adhesion), press)});
-  }
-  return indentations;
-}
-
-}  // namespace
-
-StaticBodies prepare_static_bodies(const contact::Boundary& boundary) {
-  StaticBodies bodies;
-  if (const contact::WallMesh* wall = boundary.vessels.wall.get())
-    bodies.vessel_surface = coupling::prepare_static_mesh(
-        wall->surface.body.node, *wall->surface.triangle, "surface of the vessels");
-  for (const contact::StaticMesh& m : boundary.meshes) {
-    auto& outward = bodies.outward.emplace_back(*m.triangle);
-    if (m.inside)
-      for (auto& t : outward) std::swap(t[1], t[2]);
-    bodies.mesh.push_back(
-        {coupling::prepare_static_mesh(m.body.node, outward,
-                                       fmt::format("static mesh {}", bodies.mesh.size())),
-         m.inside});
-  }
-  return bodies;
-}
-
-coupling::AuditResult audit_world(const coupling::World& world, const coupling::Workspace& w,
-                                  const Snapshot& snapshot, const StaticBodies& bodies) {
-  const contact::Boundary& boundary = world.params.boundary;
-  const double time = std::max(0.0, snapshot.time);
-  std::vector<coupling::AuditMesh> meshes;
-  std::vector<coupling::AuditSphere> spheres;
-  for (std::size_t b = 0; b < w.dcm.body.size(); ++b)
-    meshes.push_back({snapshot.cells[b].id, w.dcm.body[b].node, *w.dcm.body[b].triangle,
-                      snapshot.cells[b].newborn});
-  for (std::size_t k = w.dcm.body.size(); k < snapshot.cells.size(); ++k)
-    spheres.push_back({snapshot.cells[k].id, snapshot.cells[k].center, snapshot.cells[k].radius,
-                       snapshot.cells[k].strength, snapshot.cells[k].parent});
-  const std::vector<coupling::AuditWall> walls = coupling::make_audit_walls(boundary, time);
-  coupling::AuditFrame frame;
-  frame.meshes = meshes;
-  frame.spheres = spheres;
-  const std::vector<coupling::KnownIndentation> indentations =
-      explained_indentations(world, snapshot);
-  frame.indentations = indentations;
-  frame.vessels = &boundary.vessels.network;
-  frame.vessel_surface = bodies.vessel_surface ? &*bodies.vessel_surface : nullptr;
-  frame.walls = walls;
-  frame.static_meshes = bodies.mesh;
-  return coupling::audit(frame, world.ranks);
+  return io::collect(make_frame_source(world, w, snapshot, boundary));
 }
 
 }  // namespace acinus::runs

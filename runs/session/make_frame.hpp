@@ -1,15 +1,11 @@
 #pragma once
-/// Frames of the run file, and the independent audit of their overlaps.
+/// Frames of the run file.
 
-#include <array>
-#include <optional>
 #include <vector>
 
-#include "coupling/measure/audit.hpp"
 #include "coupling/measure/contact_list.hpp"
-#include "geometry/audit_body.hpp"
 #include "geometry/surface.hpp"
-#include "io/frame.hpp"
+#include "io/frame_source.hpp"
 #include "runs/experiments/snapshot.hpp"
 
 namespace acinus::runs {
@@ -26,24 +22,17 @@ void add_concentrations(const coupling::World& world, const Snapshot& snapshot, 
 io::Table contact_table(const std::vector<coupling::CellContact>& contacts,
                         const std::vector<coupling::CellMeasure>& cells);
 
-/// Fills the arrays of a frame; its contacts have no rows.
+/// Source of a frame; its contacts have no rows. Its points are collective: other processes call
+/// send_points(). Refers to all that it is made of.
 /// @param boundary  of draw_boundary()
 /// @pre take_snapshot() of the same moment
+io::FrameSource make_frame_source(const coupling::World& world, const coupling::Workspace& work,
+                                  const Snapshot& snapshot, const geometry::Surface& boundary);
+/// Takes part in reading the points of the root's source. Collective.
+void send_points(const coupling::World& world, const coupling::Workspace& work);
+
+/// Frame with all rows of the source.
 io::Frame make_frame(const coupling::World& world, const coupling::Workspace& work,
                      const Snapshot& snapshot, const geometry::Surface& boundary);
-
-/// Closed meshes of a boundary prepared for the audit; refers to the boundary.
-struct StaticBodies {
-  std::optional<geometry::AuditBody> vessel_surface;  ///< none: cells touch cones
-  std::vector<coupling::AuditStaticMesh> mesh;
-  std::vector<std::vector<std::array<int, 3>>> outward;  ///< [mesh][triangle], oriented outwards
-};
-StaticBodies prepare_static_bodies(const contact::Boundary& boundary);
-
-/// Audits overlaps at the present positions with code independent of the contact search.
-/// @param bodies  static bodies of the world's boundary
-/// @pre take_snapshot() of the same moment
-coupling::AuditResult audit_world(const coupling::World& world, const coupling::Workspace& work,
-                                  const Snapshot& snapshot, const StaticBodies& bodies);
 
 }  // namespace acinus::runs

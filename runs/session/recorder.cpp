@@ -102,7 +102,10 @@ Notes Recorder::resume() {
 }
 
 Excess Recorder::write_frame(bool last) {
-  simulation_.complete_points();
+  if (reads_points(scene_, simulation_.world()))
+    simulation_.complete_points();
+  else
+    simulation_.refresh_points();
   const coupling::World& world = simulation_.world();
   coupling::Workspace& work = simulation_.work();
   const auto scope = work.timings.scope("frames and audit");
@@ -118,10 +121,12 @@ Excess Recorder::write_frame(bool last) {
   io::Table contacts;
   if (scene_.output.contacts)
     contacts = contact_table(coupling::list_contacts(world, work, snapshot.cells), snapshot.cells);
-  if (file_) {
+  if (!file_) {
+    send_points(world, work);
+  } else {
     if (drawn_boundary_.node.empty() || world.params.tree.exists())
       drawn_boundary_ = draw_boundary(world.params.boundary);
-    io::Frame frame = make_frame(world, work, snapshot, drawn_boundary_);
+    io::FrameSource frame = make_frame_source(world, work, snapshot, drawn_boundary_);
     add_concentrations(world, snapshot, frame.cells);
     if (scene_.output.contacts) frame.contacts = std::move(contacts);
     file_->append(frame, observables);

@@ -18,6 +18,7 @@
 #include "runs/experiments/observe.hpp"
 #include "runs/experiments/observed_run.hpp"
 #include "runs/session/attempts.hpp"
+#include "runs/session/audit_world.hpp"
 #include "runs/session/idle_rules.hpp"
 #include "runs/session/make_frame.hpp"
 #include "runs/session/run_options.hpp"

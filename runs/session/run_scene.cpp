@@ -175,6 +175,7 @@ void SceneRun::write_frame(bool last) {
   excess_ = recorder_.write_frame(last);
   const Excess& start = recorder_.excess();
   if (!first || start.depth_um <= 0) return;
+  simulation_.complete_points();  // for the advice
   const std::string warning = fmt::format(
       "the scene starts with overlaps: {}. Until contact has pushed them apart, forces and "
       "pressures mean nothing; if they do not shrink from frame to frame, the run stops. {}",
@@ -221,6 +222,7 @@ coupling::Observer SceneRun::observer() {
 }
 
 void SceneRun::close(RunOutcome status, const std::string& cause) {
+  simulation_.complete_state();  // the root tells of the whole
   if (const auto& spheres = simulation_.work().cbm; spheres.beyond > 0) {
     note(fmt::format(
         "the stiffness of spheres was evaluated beyond the range of its law in {:.2g} % of cases",
@@ -261,9 +263,9 @@ int SceneRun::loop() {
 }
 
 int SceneRun::finish(const coupling::LoopResult& steps) {
-  simulation_.complete_points();
   if (steps.last.interrupted) stopped_by_ = reason_to_stop();
   if (!steps.ok && stopped_by_.empty()) {
+    simulation_.complete_points();  // for the advice
     const coupling::StepResult& step = steps.last;
     return give_up(
         fmt::format(
@@ -280,11 +282,13 @@ int SceneRun::finish(const coupling::LoopResult& steps) {
     return static_cast<int>(Exit::kStopped);
   }
   if (excess_.depth_um == 0) excess_ = recorder_.excess();
-  if (excess_.depth_um > 0)
+  if (excess_.depth_um > 0) {
+    simulation_.complete_points();
     return give_up(
         fmt::format("at t = {:.4g} h {}. The last frame in {} shows it. {}", time() / 3600,
                     excess_.cause, options_.out, advise(world(), excess_)),
         excess_.cells);
+  }
   close(RunOutcome::kCompleted, "");
   return static_cast<int>(Exit::kDone);
 }

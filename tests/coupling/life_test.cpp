@@ -10,6 +10,7 @@
 
 #include "coupling/life/cell_cycle.hpp"
 #include "coupling/measure/measure.hpp"
+#include "coupling/measure/node_measures.hpp"
 #include "coupling/step/controller.hpp"
 #include "coupling/step/workspace_size.hpp"
 #include "geometry/measures.hpp"

@@ -8,6 +8,7 @@
 #include "core/parallel/threads.hpp"
 #include "coupling/life/mesh_health.hpp"
 #include "coupling/measure/measure.hpp"
+#include "coupling/measure/node_measures.hpp"
 #include "coupling/measure/nuclei.hpp"
 #include "coupling/sleep/sleep.hpp"
 #include "coupling/subworld/subworld.hpp"

@@ -16,7 +16,7 @@
 #include "runs/experiments/observe.hpp"
 #include "runs/experiments/observed_run.hpp"
 #include "runs/experiments/sample_tissue.hpp"
-#include "runs/session/make_frame.hpp"
+#include "runs/session/audit_world.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::runs {

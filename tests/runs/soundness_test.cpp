@@ -8,7 +8,7 @@
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/read_scene.hpp"
 #include "runs/experiments/snapshot.hpp"
-#include "runs/session/make_frame.hpp"
+#include "runs/session/audit_world.hpp"
 #include "tests/messages.hpp"
 #include "tests/reference/brick.hpp"
 
