@@ -442,5 +442,47 @@ TEST(Audit, IndentationExplainedByTheForceIsNotAPenetrationButTunnellingIs) {
   EXPECT_GT(tunnelled.max_penetration_um, 10);
 }
 
+TEST(Audit, OfPartsGivesTheWorstOfTheWhole) {
+  std::vector<Surface> surface;
+  std::vector<AuditMesh> mesh;
+  for (int k = 0; k < 6; ++k) surface.push_back(ball({9.0 * k + 0.3 * (k % 3), 0, 0}, 5));
+  for (std::size_t k = 0; k < surface.size(); ++k)
+    mesh.push_back(
+        {100 + static_cast<std::int64_t>(k), surface[k].node, surface[k].triangle, false, true, k});
+  std::vector<AuditSphere> sphere;
+  for (std::size_t k = 0; k < 8; ++k)
+    sphere.push_back({200 + static_cast<std::int64_t>(k),
+                      Vec3(5.0 * static_cast<double>(k) + 0.1 * static_cast<double>(k % 3), 7, 0),
+                      3, 1, -1, true, mesh.size() + k});
+  AuditFrame frame;
+  frame.meshes = mesh;
+  frame.spheres = sphere;
+  const std::vector<AuditWall> wall{AuditPlane{Vec3(0, 0, -4), Vec3::UnitZ()}};
+  frame.walls = wall;
+  const AuditResult whole = audit(frame);
+  AuditResult part[2];
+  for (const int p : {0, 1}) {
+    for (std::size_t k = 0; k < mesh.size(); ++k)
+      mesh[k].own = k % 2 == static_cast<std::size_t>(p);
+    for (std::size_t k = 0; k < sphere.size(); ++k) sphere[k].own = (k / 3 % 2 == 0) == (p == 0);
+    part[p] = audit(frame);
+  }
+  const auto expect_worst = [&](WorstPair AuditResult::*pair) {
+    const WorstPair &a = part[0].*pair, &b = part[1].*pair, &w = whole.*pair;
+    EXPECT_GT(w.depth_um, 0);
+    const bool first = a.depth_um != b.depth_um ? a.depth_um > b.depth_um : a.number < b.number;
+    const WorstPair& worse = first ? a : b;
+    EXPECT_EQ(worse.depth_um, w.depth_um);
+    EXPECT_EQ(worse.ids, w.ids);
+    EXPECT_EQ(worse.number, w.number);
+  };
+  expect_worst(&AuditResult::dcm_dcm);
+  expect_worst(&AuditResult::dcm_cbm);
+  expect_worst(&AuditResult::dcm_wall);
+  expect_worst(&AuditResult::cbm_cbm);
+  EXPECT_EQ(std::max(part[0].max_penetration_um, part[1].max_penetration_um),
+            whole.max_penetration_um);
+}
+
 }  // namespace
 }  // namespace acinus::coupling

@@ -21,6 +21,39 @@ using test::expect_same_frame;
 using test::Folder;
 using test::make_frame;
 
+/// Source of a frame that hands over a few rows at a time.
+FrameSource in_parts(const Frame& frame, std::size_t n_row) {
+  FrameSource whole = source_of(frame), parts = whole;
+  const auto cut = [](auto rows, std::size_t first, std::size_t n, std::size_t components) {
+    return rows.subspan(first * components, n * components);
+  };
+  parts.points = [=, &frame](const auto& take) {
+    whole.points([&](const PointRows& all) {
+      const std::size_t total = all.point.size() / 3;
+      for (std::size_t k = 0; k < total; k += n_row) {
+        const std::size_t n = std::min(n_row, total - k);
+        PointRows rows{cut(all.point, k, n, 3), {}};
+        for (std::size_t f = 0; f < all.data.size(); ++f)
+          rows.data.push_back(cut(all.data[f], k, n, frame.point_data[f].components));
+        take(rows);
+      }
+    });
+  };
+  parts.surfaces = [=, &frame](const auto& take) {
+    whole.surfaces([&](const CellRows& all) {
+      for (std::size_t k = 0; k < all.cell_id.size(); k += n_row) {
+        const std::size_t n = std::min(n_row, all.cell_id.size() - k);
+        CellRows rows{{}, cut(all.cell_id, k, n, 1), cut(all.kind, k, n, 1), {}};
+        if (!all.triangle.empty()) rows.triangle = cut(all.triangle, k, n, 1);
+        for (std::size_t f = 0; f < all.data.size(); ++f)
+          rows.data.push_back(cut(all.data[f], k, n, frame.cell_data[f].components));
+        take(rows);
+      }
+    });
+  };
+  return parts;
+}
+
 std::vector<SeriesValue> sample(double time) {
   return {{"time", "s", time}, {"dt", "s", 0.5 * time}};
 }
@@ -106,6 +139,40 @@ TEST_P(RunFileTest, TruncatesAndContinuesAsIfNeverInterrupted) {
 
 INSTANTIATE_TEST_SUITE_P(Compression, RunFileTest, testing::Bool(),
                          [](const auto& set) { return std::string(set.param ? "fast" : "none"); });
+
+TEST(RunFile, FramesInPartsAreThoseInOne) {
+  const Folder folder("run_file_parts");
+  constexpr int kBodies = 5000, kSpheres = 3000;  // several chunks of every array
+  for (const bool compress : {true, false}) {
+    const std::string path = folder / (compress ? "compressed" : "plain");
+    {
+      RunFile run = RunFile::create(path, {}, {.compress = compress});
+      for (const int k : {0, 1, 2}) {
+        const Frame frame = make_frame(k, kBodies + (k == 2 ? 1 : 0), kSpheres);
+        run.append(in_parts(frame, 777));
+      }
+    }
+    const RunReader reader(path);
+    for (const int k : {0, 1, 2})
+      expect_same_frame(reader.frame(k), make_frame(k, kBodies + (k == 2 ? 1 : 0), kSpheres));
+  }
+}
+
+TEST(RunFile, RefusesPartsThatDoNotFit) {
+  const Folder folder("run_file_refused");
+  RunFile run = RunFile::create(folder / "run", {});
+  const Frame frame = make_frame(1, 2, 1);
+  const auto refuse = [&](const std::string& part, const std::function<void(FrameSource&)>& spoil) {
+    FrameSource source = in_parts(frame, 3);
+    spoil(source);
+    expect_error(Exit::kInternal, part, [&] { run.append(source); });
+    EXPECT_EQ(run.n_frame(), 0);
+  };
+  refuse("13 of 14 points", [](FrameSource& s) { ++s.n_mesh_node; });
+  refuse("kinds for 1 triangles", [](FrameSource& s) { --s.n_triangle; });
+  run.append(in_parts(frame, 3));
+  EXPECT_EQ(run.n_frame(), 1);
+}
 
 TEST(RunFile, SamplesBetweenFramesSurviveARestart) {
   const Folder folder("run_file_between");
