@@ -65,13 +65,14 @@ State make_state(const std::vector<NewCell>& cells) {
   return s;
 }
 
-State compose(std::span<const SelectedCell<State>> cells) {
+State compose(std::span<const SelectedCell<State>> cells, std::span<const std::uint8_t> absent) {
   State s = make_size(cells.size());
   for_each_index(cells.size(), worth_threads(s.n_row()), [&](std::size_t k) {
     const State* const from = cells[k].state;
     const std::size_t cell = cells[k].index;
-    store_point(s.position.data(), cell_address(0, k), center_of(*from, cell));
     s.lineage[k] = from->lineage[cell];
+    if (!absent.empty() && absent[k] != 0) return;
+    store_point(s.position.data(), cell_address(0, k), center_of(*from, cell));
     s.volume[k] = from->volume[cell];
   });
   const auto copy = [&](auto State::*values) {

@@ -49,7 +49,9 @@ State make_state(const std::vector<NewCell>& cells);
 
 /// Copies cells into a new state, in the order given. Contacts in existence between cells of one
 /// state, or with the boundary, are kept.
-State compose(std::span<const SelectedCell<State>> cells);
+/// @param absent  [cells] not 0: place and volume are not known and not copied; empty: all are
+State compose(std::span<const SelectedCell<State>> cells,
+              std::span<const std::uint8_t> absent = {});
 
 /// Address in arrays that start with the CBM rows at `first_row`.
 inline Address cell_address(std::size_t first_row, std::size_t cell) {

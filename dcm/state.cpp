@@ -95,7 +95,8 @@ State make_state(const std::vector<NewCell>& cells) {
   return s;
 }
 
-State compose(std::span<const SelectedCell<State>> cells, std::vector<std::size_t>& lane) {
+State compose(std::span<const SelectedCell<State>> cells, std::vector<std::size_t>& lane,
+              std::span<const std::uint8_t> absent) {
   Grouping grouping;
   lane.clear();
   for (const SelectedCell<State>& c : cells) {
@@ -111,6 +112,7 @@ State compose(std::span<const SelectedCell<State>> cells, std::vector<std::size_
     s.birth[to] = from.birth[at];
     s.tension[to] = from.tension[at];
     s.pull[to] = from.pull[at];
+    if (!absent.empty() && absent[k] != 0) return;
     for (int i = 0; i < from.group[at / kLanes].n_point(); ++i)
       store_point(s.position.data(), node_address(s, to, i),
                   load_point(from.position.data(), node_address(from, at, i)));

@@ -68,8 +68,10 @@ struct NewCell {
 State make_state(const std::vector<NewCell>& cells);
 
 /// Copies cells into a new state, grouped by type and topology in the order given.
-/// @param lane  [cells] written: lane of each in the new state
-State compose(std::span<const SelectedCell<State>> cells, std::vector<std::size_t>& lane);
+/// @param lane    [cells] written: lane of each in the new state
+/// @param absent  [cells] not 0: its points are not known and not copied; empty: all are
+State compose(std::span<const SelectedCell<State>> cells, std::vector<std::size_t>& lane,
+              std::span<const std::uint8_t> absent = {});
 
 /// Number of cells (not lanes).
 int count_cells(const State& state);

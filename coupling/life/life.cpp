@@ -11,10 +11,12 @@
 #include "core/parallel/stop.hpp"
 #include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
+#include "coupling/life/announce_daughters.hpp"
 #include "coupling/life/cell_cycle.hpp"
 #include "coupling/life/mesh_health.hpp"
 #include "coupling/life/rules.hpp"
 #include "coupling/sleep/sleep.hpp"
+#include "coupling/step/held_cells.hpp"
 #include "coupling/step/near_cells.hpp"
 #include "coupling/step/workspace_size.hpp"
 #include "coupling/subworld/population.hpp"
@@ -140,20 +142,30 @@ void add_settling(const Settled& settled, const std::array<std::int64_t, 2>& dau
   }
 }
 
-/// Divides all deformable mothers, in parallel if there are many.
+/// Lanes of the spheres among cells.
+std::vector<std::size_t> spheres_of(const std::vector<Cell>& cells) {
+  std::vector<std::size_t> lanes;
+  for (const Cell& c : cells)
+    if (!c.deformable) lanes.push_back(c.index);
+  return lanes;
+}
+
+/// Divides all deformable mothers, each on the process that holds it, in parallel if there are
+/// many.
 void divide_shells(World& world, const std::vector<Cell>& mothers, Newborn& born,
                    std::vector<std::uint8_t>& gone, LifeReport& report) {
   std::vector<DaughterMeshes> daughters(mothers.size());
   std::vector<std::string> why(mothers.size());
   std::vector<std::uint8_t> done(mothers.size(), 0);
   for_each_part(mothers.size(), [&](std::size_t k) {
-    if (stop_requested()) return;
+    if (stop_requested() || !is_mine(world, mothers[k])) return;
     try {  // one that fails does not keep the others from dividing
       done[k] = split_shell(world, mothers[k].at, daughters[k], why[k]) ? 1 : 0;
     } catch (const std::exception& e) {
       why[k] = e.what();
     }
   });
+  if (!world.state.cell_holder.empty()) announce_daughters(world, mothers, done, daughters, why);
   for (std::size_t k = 0; k < mothers.size(); ++k) {
     State& s = world.state;
     if (done[k] != 0) {
@@ -192,15 +204,15 @@ LifeReport turn_over(World& world, Workspace& work) {
   State before;
   if (reads_points(world)) complete_points(world, work);
   if (has_doubled_shell(world.state)) {
-    complete_points(world, work);
     work.linearisation.state = {};  // room for the two states that there are now
     before = world.state;
   }
   Plan plan = make_plan(world, work);
   if (plan.empty()) return report;
-  complete_points(world, work);
   const auto scope = work.timings.scope("life");
   State& s = world.state;
+  bring_points(world.ranks, spheres_of(plan.divide), s);
+  const std::int64_t first_new = s.next_lineage;
   std::vector<std::uint8_t> gone(s.cycle.size(), 0);
   std::vector<int> type(s.cycle.size(), -1);  // cells become
   Newborn born;
@@ -228,10 +240,9 @@ LifeReport turn_over(World& world, Workspace& work) {
   if (!shells.empty() && stop_requested()) return undo(before, s);
   s.divisions += std::ssize(born.shell) / 2 + std::ssize(born.sphere) / 2;
   const State newborn = make_state(world, born, s.clock.time);
-  exchange_cells(gone, type, {&newborn, 1}, s);
+  exchange_cells(world.ranks, gone, type, {&newborn, 1}, s);
   for_each_cell(s, [&](const Cell& c) {  // new cells start to grow, or rest where a rule says so
-    if (s.cycle[c.index].parent >= 0 && s.cycle[c.index].birth == s.clock.time)
-      set_growth(world.params, s, c, 1);
+    if (lineage_of(s, c) >= first_new) set_growth(world.params, s, c, 1);
   });
   if (!born.shell.empty()) {
     std::vector<std::int64_t> daughters;
@@ -283,18 +294,22 @@ LifeReport remove_dying(World& world, Workspace& work, std::span<const std::int6
   LifeReport report;
   State& s = world.state;
   if (s.cycle.empty()) return report;
-  complete_points(world, work);
-  std::vector<std::uint8_t> gone(s.cycle.size(), 0);
+  std::vector<Cell> named;
   for_each_cell(s, [&](const Cell& c) {
+    if (std::ranges::find(cells, lineage_of(s, c)) != cells.end()) named.push_back(c);
+  });
+  bring_points(world.ranks, spheres_of(named), s);
+  std::vector<std::uint8_t> gone(s.cycle.size(), 0);
+  for (const Cell& c : named) {
     const std::int64_t id = lineage_of(s, c);
-    if (s.cycle[c.index].fate != Fate::kLyse || std::ranges::find(cells, id) == cells.end()) return;
+    if (s.cycle[c.index].fate != Fate::kLyse) continue;
     gone[c.index] = 1;
     ++s.deaths;
     report.events.push_back({EventKind::kDeathEarly, {id}, "removed before it had shrunk: " + why});
     report.events.push_back({EventKind::kDeath, {id}, "removed"});
-  });
+  }
   if (report.events.empty()) return report;
-  exchange_cells(gone, {}, {}, s);
+  exchange_cells(world.ranks, gone, {}, {}, s);
   size_workspace(world, work);
   return report;
 }

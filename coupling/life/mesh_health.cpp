@@ -13,7 +13,6 @@
 #include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
 #include "coupling/step/held_cells.hpp"
-#include "coupling/step/near_cells.hpp"
 #include "coupling/step/workspace_size.hpp"
 #include "coupling/subworld/settle.hpp"
 #include "coupling/world/cell.hpp"
@@ -167,7 +166,7 @@ void mend_meshes(World& world, Workspace& work, LifeReport& report) {
   const auto scope = work.timings.scope("mesh health");
   const std::vector<std::size_t> lanes = find_all_suspicious(world, due == Due::kYoung);
   if (lanes.empty()) return;
-  complete_points(world, work);
+  bring_points(world.ranks, lanes, s);
   complete_shapes(world.ranks, lanes, s);
   State before = s;
   std::vector<dcm::Mended> mended(lanes.size());

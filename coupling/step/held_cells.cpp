@@ -208,8 +208,8 @@ void keep_own_moves(const Workspace& w, State& s) {
 void hand_over_cells(World& world, const Workspace& w) {
   State& s = world.state;
   if (keeps_all(world, w)) return complete_cells(world.ranks, s);
+  forget_near(s);
   if (are_with_owners(w, s)) return;
-  complete_near(world.ranks, s);
   const int self = world.ranks.rank();
   std::vector<Handover> with(static_cast<std::size_t>(world.ranks.size()));
   if (s.cell_holder.empty())
@@ -225,7 +225,7 @@ void hand_over_cells(World& world, const Workspace& w) {
     else if (from == self && to != self)
       with[static_cast<std::size_t>(to)].send.push_back(lane);
   }
-  send_cells(world.ranks, with, {.moves = moves, .shapes = true}, s, own);
+  send_cells(world.ranks, with, {.moves = moves, .near = s.near_set != 0, .shapes = true}, s, own);
   s.cell_holder = {count_lanes(s), [&](std::size_t lane) { return owner_of_lane(w, lane); }};
   for (std::size_t lane = 0; lane < s.dcm.n_lane(); ++lane)
     if (s.cell_holder[lane] != self) forget_shape(s, lane);
@@ -315,6 +315,15 @@ void drop_cells(const Ranks& ranks, State& s) {
       for_each_number_of(s, lane, [&](std::size_t k) { own[k] = s.last_move[k]; });
   s.last_move = std::move(own);
   if (s.near_set != 0) drop_far(ranks, s, false);
+}
+
+void bring_points(const Ranks& ranks, std::span<const std::size_t> lanes, State& s) {
+  if (s.near_set != 0) gather_cells(ranks, Where::kEverywhere, lanes, {.near = true}, s);
+}
+
+void forget_near(State& s) {
+  if (s.near_set != 0) s.near_set = kOwnPoints;
+  s.near.clear();
 }
 
 void complete_shapes(const Ranks& ranks, std::span<const std::size_t> lanes, State& s) {

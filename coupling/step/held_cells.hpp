@@ -3,10 +3,12 @@
 /// owners of the cells: State::cell_holder names them. Numbers of others are zero, or not there.
 /// Points are with near processes too (near_cells.hpp).
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
 
+#include "core/parallel/threads.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 
@@ -17,12 +19,16 @@ inline int points_of(const State& s, std::size_t lane) {
   return lane < s.dcm.n_lane() ? s.dcm.group[lane / kLanes].n_point() : 1;
 }
 
+/// Address of the first point of a lane among all unknowns.
+inline Address first_point_of(const State& s, std::size_t lane) {
+  return lane < s.dcm.n_lane() ? dcm::node_address(s.dcm, lane, 0)
+                               : cbm::cell_address(s.dcm.n_row(), lane - s.dcm.n_lane());
+}
+
 /// Calls f(k) for the indices k of a lane's numbers in vectors [n_row][3][lane].
 template <class F>
 void for_each_number_of(const State& s, std::size_t lane, const F& f) {
-  const std::size_t first = lane < s.dcm.n_lane()
-                                ? dcm::node_address(s.dcm, lane, 0)
-                                : cbm::cell_address(s.dcm.n_row(), lane - s.dcm.n_lane());
+  const auto first = static_cast<std::size_t>(first_point_of(s, lane));
   const auto n = static_cast<std::size_t>(points_of(s, lane));
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t m = 0; m < 3; ++m) f(first + i * kPointStride + m * kLanes);
@@ -69,6 +75,36 @@ void complete_cells(const Ranks& ranks, State& state);
 void bring_cells_to_root(const Ranks& ranks, State& state);
 /// Returns the memory of what other processes hold.
 void drop_cells(const Ranks& ranks, State& state);
+
+/// True if this process has the points of a cell in a state whose near cells are not known.
+inline bool holds_points(const Ranks& ranks, const State& s, std::size_t lane) {
+  return s.near_set == 0 || s.cell_holder[lane] == ranks.rank() ||
+         s.cell_holder[lane] == kEverywhere;
+}
+
+/// Gathers a place of each lane from its holder. Collective if points are not everywhere.
+/// @param place_of  place_of(lane), um, of a lane with points
+/// @return          [lanes of all rows of cells]
+template <class F>
+std::vector<Vec3> gather_places(const Ranks& ranks, const State& s, const F& place_of) {
+  const std::size_t n = s.dcm.n_lane() + s.cbm.n_row() * kLanes;
+  std::vector<Vec3> own, all(s.near_set == 0 ? n : 0);
+  for_each_index(all.size(), worth_threads(n), [&](std::size_t k) { all[k] = place_of(k); });
+  if (s.near_set == 0) return all;
+  const auto owner = [&s](std::size_t k) { return std::max(0, s.cell_holder[k]); };
+  for (std::size_t k = 0; k < n; ++k)
+    if (owner(k) == ranks.rank()) own.push_back(place_of(k));
+  solve::gather_in_order(
+      ranks, n, owner, [](std::size_t) { return std::size_t{1}; }, own, all);
+  return all;
+}
+
+/// Gathers the points of some cells on every process, which keep them until near cells are found.
+/// Collective.
+void bring_points(const Ranks& ranks, std::span<const std::size_t> lanes, State& state);
+
+/// Makes a state one whose near cells are not known, unless every process has all points.
+void forget_near(State& state);
 
 /// Gathers the shapes of birth of some deformable cells on every process. Collective.
 void complete_shapes(const Ranks& ranks, std::span<const std::size_t> lanes, State& state);

@@ -228,13 +228,15 @@ void refresh_near_cells(World& world, Workspace& w) {
   State& s = world.state;
   if (reads_all_points(world)) return complete_points(world, w);
   NearCells& near = w.near;
-  if (s.near_set != near.set) complete_points(world, w);  // another state has come
+  if (s.near_set != near.set && s.near_set != kOwnPoints)
+    complete_points(world, w);  // another state has come
   const OwnCells own = list_own_cells(world);
-  std::array<double, 4> most{s.near_set == 0 ? 0 : measure_motion(own, near), own.range,
-                             -own.spheres.softest, own.spheres.largest};
+  const bool known = s.near_set > 0;
+  std::array<double, 4> most{known ? measure_motion(own, near) : 0, own.range, -own.spheres.softest,
+                             own.spheres.largest};
   world.ranks.max(most);
   const double reach = compute_reach(world.params, most[1], {-most[2], most[3]});
-  if (s.near_set != 0 && most[0] <= kRoom && reach <= near.reach + kRoom) return;
+  if (known && most[0] <= kRoom && reach <= near.reach + kRoom) return;
   // Two cells may both move, and their reach grow; a fourth part is for growth within a step, and
   // for rounding.
   NearCells next = find_near_cells(world, own, reach + 4 * kRoom);

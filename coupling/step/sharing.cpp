@@ -5,6 +5,7 @@
 
 #include "core/numbers/random.hpp"
 #include "core/parallel/partition.hpp"
+#include "coupling/step/held_cells.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -30,17 +31,15 @@ struct BlockCosts {
   std::vector<double> cost;
 };
 
-BlockCosts compute_costs(const State& s, std::span<const solve::Block> blocks,
-                         const MeasuredCost& measured) {
+BlockCosts compute_costs(const State& s, std::span<const Vec3> first_point,
+                         std::span<const solve::Block> blocks, const MeasuredCost& measured) {
   BlockCosts out;
-  std::size_t row = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const auto n_point = static_cast<std::size_t>(blocks[b].pattern->n_point);
     Vec3 place = Vec3::Zero();
     double cost = 0, n = 0;
     for_each_cell_of(s, b, [&](std::int64_t lineage, std::size_t lane) {
-      const Address at = make_address(row, static_cast<int>(lane % kLanes));
-      place += load_point(position_of(s, at), 0);
+      place += first_point[lane];
       ++n;
       const auto known = std::ranges::lower_bound(measured.of_cell, lineage, {},
                                                   &std::pair<std::int64_t, double>::first);
@@ -50,7 +49,6 @@ BlockCosts compute_costs(const State& s, std::span<const solve::Block> blocks,
     });
     out.place.push_back(place / std::max(n, 1.0));
     out.cost.push_back(std::max(cost, kPointCost));
-    row += n_point;
   }
   return out;
 }
@@ -68,7 +66,11 @@ solve::Ownership share_blocks(const World& world, std::span<const solve::Block> 
   if (random) {
     o.owner = draw_owners(world, blocks.size());
   } else {
-    const BlockCosts costs = compute_costs(world.state, blocks, cost);
+    const State& s = world.state;
+    const std::vector<Vec3> first = gather_places(world.ranks, s, [&s](std::size_t lane) {
+      return load_point(position_of(s, first_point_of(s, lane)), 0);
+    });
+    const BlockCosts costs = compute_costs(s, first, blocks, cost);
     o.owner = partition(world.ranks, costs.place, costs.cost);
   }
   return o;

@@ -7,7 +7,6 @@
 #include "coupling/step/ghost_cells.hpp"
 #include "coupling/step/held_cells.hpp"
 #include "coupling/step/held_contacts.hpp"
-#include "coupling/step/near_cells.hpp"
 #include "coupling/step/sharing.hpp"
 #include "dcm/loads/loads.hpp"
 
@@ -64,7 +63,6 @@ void release_scratch(Workspace& w) {
 }
 
 void size_workspace(World& world, Workspace& w) {
-  complete_points(world, w);  // shares are by place
   size_workspace(std::as_const(world), w);
   hand_over_contacts(world.ranks, w, world.state);
   hand_over_cells(world, w);

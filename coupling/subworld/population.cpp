@@ -6,6 +6,7 @@
 
 #include "core/parallel/threads.hpp"
 #include "coupling/generate/packing.hpp"
+#include "coupling/step/held_cells.hpp"
 #include "coupling/world/cell.hpp"
 
 namespace acinus::coupling {
@@ -24,14 +25,27 @@ void copy_move(const State& from, Address at, State& to, Address place) {
       to.last_move[place + k] = from.last_move[at + k];
 }
 
+/// Lane of a member among all rows of cells of its state.
+std::size_t lane_of_member(const SelectedCell<State>& m, bool spheres) {
+  return m.index + (spheres ? m.state->dcm.n_lane() : 0);
+}
+
+Vec3 center_of_lane(const State& s, std::size_t lane) {
+  if (lane < s.dcm.n_lane())
+    return s.dcm.active(lane) ? dcm::cell_center(s.dcm, lane) : Vec3::Zero();
+  return load_point(position_of(s, first_point_of(s, lane)), 0);
+}
+
 /// Sorts members along a space-filling curve.
-/// @param center_of  position of a member
-template <class CenterOf>
-void sort_along_curve(std::vector<SelectedCell<State>>& members, const CenterOf& center_of) {
-  constexpr std::size_t kWorthThreads = 200;
-  std::vector<Vec3> center(members.size());
-  for_each_index(members.size(), members.size() > kWorthThreads,
-                 [&](std::size_t k) { center[k] = center_of(members[k]); });
+/// @param center  [lanes] of the cells of `s`; those of other states have their points
+void sort_along_curve(std::vector<SelectedCell<State>>& members, bool spheres, const State& s,
+                      std::span<const Vec3> center_of_s) {
+  std::vector<Vec3> center;
+  center.reserve(members.size());
+  for (const SelectedCell<State>& m : members) {
+    const std::size_t lane = lane_of_member(m, spheres);
+    center.push_back(m.state == &s ? center_of_s[lane] : center_of_lane(*m.state, lane));
+  }
   std::vector<SelectedCell<State>> sorted;
   sorted.reserve(members.size());
   for (int k : space_filling_order(center)) sorted.push_back(members[k]);
@@ -70,27 +84,40 @@ void inherit_signals(std::span<const State> fresh, const State& before, State& s
     });
 }
 
+/// [members] 1: the points of a cell are with another process; empty: of none.
+std::vector<std::uint8_t> mark_absent(std::span<const SelectedCell<State>> members, bool spheres,
+                                      const Ranks* self) {
+  std::vector<std::uint8_t> absent;
+  if (self == nullptr) return absent;
+  for (const SelectedCell<State>& m : members)
+    absent.push_back(holds_points(*self, *m.state, lane_of_member(m, spheres)) ? 0 : 1);
+  return absent;
+}
+
 }  // namespace
 
 State compose(std::span<const SelectedCell<State>> dcm, std::span<const SelectedCell<State>> cbm,
-              const State& like, std::vector<std::size_t>* stands) {
+              const State& like, std::vector<std::size_t>* stands, const Ranks* self) {
   State s;
   std::vector<SelectedCell<dcm::State>> shells;
   std::vector<SelectedCell<cbm::State>> spheres;
   for (const auto& [state, lane, type] : dcm) shells.push_back({&state->dcm, lane, type});
   for (const auto& [state, cell, type] : cbm) spheres.push_back({&state->cbm, cell, type});
   std::vector<std::size_t> lane;
-  s.dcm = dcm::compose(shells, lane);
-  s.cbm = cbm::compose(spheres);
+  const std::vector<std::uint8_t> no_shell = mark_absent(dcm, false, self),
+                                  no_sphere = mark_absent(cbm, true, self);
+  s.dcm = dcm::compose(shells, lane, no_shell);
+  s.cbm = cbm::compose(spheres, no_sphere);
 
   const std::size_t n_cell = s.dcm.n_lane() + s.cbm.n_cell();
   s.leader.assign(n_cell, 0);
-  s.cycle.assign(n_cell, Cycle{});
+  s.cycle = make_zeros<Cycle>(n_cell);
+  std::fill_n(s.cycle.begin(), s.dcm.n_lane(), Cycle{});
   s.last_move = make_zeros<double>(s.dcm.position.size() + s.cbm.position.size());
   std::vector<int> holder;
-  const auto copy_cell = [&](const State& from, std::size_t at, std::size_t to) {
+  const auto copy_cell = [&](const State& from, std::size_t at, std::size_t to, bool has_cycle) {
     s.leader[to] = value_of(from.leader, at, std::uint8_t{0});
-    s.cycle[to] = value_of(from.cycle, at, Cycle{});
+    if (has_cycle) s.cycle[to] = value_of(from.cycle, at, Cycle{});
     if (!from.model_since.empty()) {
       s.model_since.resize(n_cell, like.clock.origin);
       s.model_since[to] = from.model_since[at];
@@ -109,9 +136,11 @@ State compose(std::span<const SelectedCell<State>> dcm, std::span<const Selected
     s.asleep.resize(n_cell, 0);
     s.asleep[to] = 1;
   };
-  for (std::size_t k = 0; k < dcm.size(); ++k) copy_cell(*dcm[k].state, dcm[k].index, lane[k]);
+  for (std::size_t k = 0; k < dcm.size(); ++k)
+    copy_cell(*dcm[k].state, dcm[k].index, lane[k], true);
   for (std::size_t k = 0; k < cbm.size(); ++k)
-    copy_cell(*cbm[k].state, cell_index(*cbm[k].state, cbm[k].index), cell_index(s, k));
+    copy_cell(*cbm[k].state, cell_index(*cbm[k].state, cbm[k].index), cell_index(s, k),
+              no_sphere.empty() || no_sphere[k] == 0);
   s.cell_holder = PagedValues(holder);
   if (std::ranges::any_of(cbm, [](const auto& c) { return !c.state->holder.empty(); }))
     s.holder = {cbm.size(), [&](std::size_t k) {
@@ -147,13 +176,6 @@ State compose(std::span<const SelectedCell<State>> dcm, std::span<const Selected
   return s;
 }
 
-void sort_by_place(std::vector<SelectedCell<State>>& dcm, std::vector<SelectedCell<State>>& cbm) {
-  sort_along_curve(
-      dcm, [](const SelectedCell<State>& m) { return dcm::cell_center(m.state->dcm, m.index); });
-  sort_along_curve(
-      cbm, [](const SelectedCell<State>& m) { return cbm::center_of(m.state->cbm, m.index); });
-}
-
 std::vector<SelectedCell<State>> list_dcm(const State& s) {
   std::vector<SelectedCell<State>> list;
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
@@ -167,8 +189,8 @@ std::vector<SelectedCell<State>> list_cbm(const State& s) {
   return list;
 }
 
-void exchange_cells(std::span<const std::uint8_t> gone, std::span<const int> type,
-                    std::span<const State> fresh, State& s) {
+void exchange_cells(const Ranks& ranks, std::span<const std::uint8_t> gone,
+                    std::span<const int> type, std::span<const State> fresh, State& s) {
   std::vector<SelectedCell<State>> shells, spheres;
   for_each_cell(s, [&](const Cell& c) {
     if (gone[c.index] == 0)
@@ -178,8 +200,14 @@ void exchange_cells(std::span<const std::uint8_t> gone, std::span<const int> typ
     for (const SelectedCell<State>& m : list_dcm(f)) shells.push_back(m);
     for (const SelectedCell<State>& m : list_cbm(f)) spheres.push_back(m);
   }
-  sort_by_place(shells, spheres);
-  State next = compose(shells, spheres, s);
+  {
+    const std::vector<Vec3> center =
+        gather_places(ranks, s, [&s](std::size_t lane) { return center_of_lane(s, lane); });
+    sort_along_curve(shells, false, s, center);
+    sort_along_curve(spheres, true, s, center);
+  }
+  State next = compose(shells, spheres, s, nullptr, &ranks);
+  if (s.near_set != 0 && !next.cell_holder.empty()) next.near_set = kOwnPoints;
   inherit_signals(fresh, s, next);
   if (has_last_move(s)) {
     const auto of_tree =

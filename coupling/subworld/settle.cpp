@@ -1,7 +1,9 @@
 #include "coupling/subworld/settle.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "coupling/step/held_cells.hpp"
 #include "coupling/step/held_contacts.hpp"
 #include "coupling/subworld/subworld.hpp"
 #include "geometry/measures.hpp"
@@ -26,6 +28,13 @@ double pressure_of(const World& world, std::size_t lane, const std::vector<Vec3>
                                s.dcm.volume[lane].at(s.clock.time));
 }
 
+/// Lanes of cells among those of all rows of cells.
+std::vector<std::size_t> lanes_of(const State& s, const CellSet& cells) {
+  std::vector<std::size_t> lanes = cells.dcm;
+  for (const std::size_t c : cells.cbm) lanes.push_back(s.dcm.n_lane() + c);
+  return lanes;
+}
+
 /// Makes the steps of a subworld equal and uncontrolled.   @param step  s
 void set_newton_steps(double step, Subworld& sub) {
   Numerics& n = sub.world.params.numerics;
@@ -44,7 +53,9 @@ Settled settle_cells(World& world, const std::vector<std::int64_t>& cells, doubl
     if (std::ranges::find(cells, s.dcm.lineage[l]) != cells.end()) fresh.dcm.push_back(l);
   complete_contacts(world.ranks, world.state);
   Subworld sub;
-  extract_at_rest(world, fresh, find_neighbours(world, fresh, kSettleReach), sub);
+  CellSet neighbours = find_neighbours(world, fresh, kSettleReach);
+  bring_points(world.ranks, lanes_of(s, neighbours), world.state);
+  extract_at_rest(world, fresh, std::move(neighbours), sub);
   if (newton_step > 0) set_newton_steps(newton_step, sub);
   const double duration = newton_step > 0 ? kNewtonSteps * newton_step
                                           : std::min(kLongest, world.params.numerics.max_step);

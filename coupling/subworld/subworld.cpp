@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "coupling/step/held_cells.hpp"
 #include "coupling/step/held_contacts.hpp"
 #include "coupling/step/loop.hpp"
 #include "coupling/step/workspace_size.hpp"
@@ -32,6 +33,16 @@ bool have_same_cells(const State& a, const State& b) {
          std::ranges::equal(a.dcm.group, b.dcm.group, [](const dcm::Group& g, const dcm::Group& h) {
            return g.topology == h.topology && g.type == h.type && g.nucleus == h.nucleus;
          });
+}
+
+/// Numbers that some process has, ascending.
+void unite(const Ranks& ranks, std::vector<std::size_t>& numbers) {
+  std::vector<std::size_t> all;
+  ranks.gather<std::size_t>(numbers, all);
+  std::ranges::sort(all);
+  const auto repeated = std::ranges::unique(all);  // cells that every process has
+  all.erase(repeated.begin(), repeated.end());
+  numbers = std::move(all);
 }
 
 /// Calls f(address in the subworld, address in the whole world) for every moving point.
@@ -79,11 +90,14 @@ CellSet find_neighbours(const World& world, const CellSet& cells, double reach) 
   std::vector<Box> inner, outer;
   for (std::size_t l : cells.dcm) inner.push_back(box_of(s, l));
   for (std::size_t c : cells.cbm) inner.push_back(sphere(c));
+  const auto is_tested = [&](std::size_t lane) { return holds_points(world.ranks, s, lane); };
   CellSet others;
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
-    if (s.dcm.active(l) && !std::ranges::binary_search(cells.dcm, l)) others.dcm.push_back(l);
+    if (s.dcm.active(l) && is_tested(l) && !std::ranges::binary_search(cells.dcm, l))
+      others.dcm.push_back(l);
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
-    if (!std::ranges::binary_search(cells.cbm, c)) others.cbm.push_back(c);
+    if (is_tested(s.dcm.n_lane() + c) && !std::ranges::binary_search(cells.cbm, c))
+      others.cbm.push_back(c);
   for (std::size_t l : others.dcm) outer.push_back(box_of(s, l));
   for (std::size_t c : others.cbm) outer.push_back(sphere(c));
   std::vector<std::uint8_t> near(outer.size(), 0);
@@ -96,6 +110,10 @@ CellSet find_neighbours(const World& world, const CellSet& cells, double reach) 
       found.dcm.push_back(others.dcm[k]);
     else
       found.cbm.push_back(others.cbm[k - n_shell]);
+  }
+  if (s.near_set != 0) {
+    unite(world.ranks, found.dcm);
+    unite(world.ranks, found.cbm);
   }
   return found;
 }

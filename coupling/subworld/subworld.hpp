@@ -17,7 +17,8 @@ struct CellSet {
   bool empty() const { return dcm.empty() && cbm.empty(); }
 };
 
-/// Neighbours of a set of cells: the others whose bounding boxes come within `reach`, um.
+/// Neighbours of a set of cells: the others whose bounding boxes come within `reach`, um. Each
+/// process tests the cells whose points it has. Collective.   @pre all have the points of `cells`
 CellSet find_neighbours(const World& world, const CellSet& cells, double reach);
 
 struct Subworld {

@@ -160,7 +160,7 @@ struct PresentState {
   std::vector<double> adhesion;
   /// Set of near cells on all processes: a process has the points, and of spheres volume, strength,
   /// modulus and cycle, of its own cells and of near ones only. 0: every process has those of all,
-  /// as in a checkpoint. See step/near_cells.hpp
+  /// as in a checkpoint. kOwnPoints: of its own cells only. See step/near_cells.hpp
   std::int64_t near_set = 0;
   /// [near cell] lanes of all rows of cells, ascending
   std::vector<std::size_t> near;
@@ -178,6 +178,8 @@ struct State : PresentState {
 };
 
 inline constexpr int kEverywhere = -1;  ///< holder of what every process has
+/// State::near_set after cells or owners have changed, until near cells are found.
+inline constexpr std::int64_t kOwnPoints = -1;
 
 /// Number of cells of both models.
 int count_cells(const State& state);

@@ -129,13 +129,15 @@ Switches find_candidates(const World& world, const std::vector<double>& pressure
 }
 
 /// Replaces changed cells by their new states and records the time.
-void exchange(const std::vector<std::uint8_t>& gone, const std::vector<State>& fresh, State& s) {
+void exchange(const std::vector<std::uint8_t>& gone, const std::vector<State>& fresh,
+              World& world) {
+  State& s = world.state;
   const bool lives = !s.cycle.empty();
   std::set<std::int64_t> changed;
   for_each_cell(s, [&](const Cell& c) {
     if (gone[c.index] != 0) changed.insert(lineage_of(s, c));
   });
-  exchange_cells(gone, {}, fresh, s);
+  exchange_cells(world.ranks, gone, {}, fresh, s);
   if (!lives) s.cycle.clear();
   s.model_since.resize(s.dcm.n_lane() + s.cbm.n_cell(), s.clock.origin);
   for_each_cell(s, [&](const Cell& c) {
@@ -216,7 +218,7 @@ void change_models(World& world, const Switches& all, const std::vector<double>&
         {EventKind::kDemotion, c.lineage,
          fmt::format("becomes a sphere at a pressure of {:.3g} Pa", 1e3 * pressure[c.cell.index])});
   }
-  if (!fresh.empty()) exchange(gone, fresh, s);
+  if (!fresh.empty()) exchange(gone, fresh, world);
 }
 
 }  // namespace

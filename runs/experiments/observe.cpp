@@ -66,6 +66,10 @@ std::string why_over(Experiment experiment, const Measures& measures) {
   return why ? why(measures) : "";
 }
 
+bool counts_births(const Scene& scene) {
+  return experiment_row(scene.experiment).count_births != nullptr;
+}
+
 void observe_births(const Scene& scene, const coupling::World& world,
                     const coupling::LifeReport& report, ObservedRun& observed) {
   const auto count_births = experiment_row(scene.experiment).count_births;

@@ -25,6 +25,9 @@ std::vector<io::SeriesValue> observe_frame(const ObservedFrame& frame, ObservedR
 /// are pulled apart have come apart. Empty: none.
 std::string why_over(Experiment experiment, const Measures& measures);
 
+/// True if the experiment counts divisions, for which every process must have the points of all
+/// cells.
+bool counts_births(const Scene& scene);
 /// Counts divisions if the experiment does. To be called while the daughters are where they were
 /// born.
 void observe_births(const Scene& scene, const coupling::World& world,

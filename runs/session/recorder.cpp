@@ -185,6 +185,7 @@ void Recorder::add_event(const std::string& code, const std::string& message,
 }
 
 void Recorder::add_life(const coupling::LifeReport& report) {
+  if (counts_births(scene_) && !report.events.empty()) simulation_.complete_points();
   const coupling::World& world = simulation_.world();
   runs::add_life(life_, report, coupling::count_cells(world.state), wall_s());
   observe_births(scene_, world, report, observed_);

@@ -6,10 +6,14 @@
 
 #include <cmath>
 
+#include "coupling/life/life.hpp"
 #include "coupling/life/rules.hpp"
+#include "coupling/measure/measure.hpp"
+#include "coupling/measure/node_measures.hpp"
 #include "coupling/step/controller.hpp"
 #include "coupling/step/held_cells.hpp"
 #include "coupling/step/held_contacts.hpp"
+#include "coupling/step/workspace_size.hpp"
 #include "tests/coupling/lives.hpp"
 #include "tests/coupling/worlds.hpp"
 
@@ -118,6 +122,87 @@ TEST(NearCells, SpheresThatAreDueAreKnownToAll) {
     EXPECT_EQ(plan.divide.empty(), hours < 15);
     for (std::size_t k = 0; k < plan.divide.size(); ++k)
       EXPECT_EQ(plan.divide[k].index, expected.divide[k].index);
+  }
+}
+
+/// Bits of what a frame measures: cells everywhere, nodes at the root.
+std::vector<double> measure(World& world, Workspace& work) {
+  observe(world, work);
+  std::vector<double> all;
+  for (const CellMeasure& c : measure_cells(world, work)) {
+    all.insert(all.end(), {c.volume, c.area, c.contact_area, c.contact_force, c.normal_force,
+                           static_cast<double>(c.contacts), c.center.x()});
+    all.insert(all.end(), c.stress.begin(), c.stress.end());
+  }
+  const std::size_t n = all.size();
+  visit_nodes(world, work, [&](std::span<const NodeValue> nodes) {
+    for (const NodeValue& v : nodes)
+      all.insert(all.end(), {v.position.y(), v.force.x(), v.pressure, v.tension});
+  });
+  EXPECT_EQ(all.size() - n, world.ranks.is_root() ? 4U * 42 * kRowShells : 0);
+  return all;
+}
+
+TEST(NearCells, GiveTheMeasuresOfAllCells) {
+  World alone = make_rows(Ranks::serial(), false);
+  Workspace work;
+  take_steps(3, alone, work);
+  const std::vector<double> expected = measure(alone, work);
+  for (const Sharing sharing : {Sharing::kBalanced, Sharing::kRandom}) {
+    World shared = make_rows(Ranks::world(), false);
+    shared.sharing = sharing;
+    Workspace of_part;
+    take_steps(3, shared, of_part);
+    EXPECT_EQ(shared.state.near_set != 0, !shared.ranks.is_alone());
+    refresh_near_cells(shared, of_part);
+    const std::vector<double> found = measure(shared, of_part);
+    EXPECT_TRUE(std::ranges::equal(found, std::span(expected).first(found.size())));
+    EXPECT_EQ(shared.state.near_set != 0, !shared.ranks.is_alone());
+  }
+}
+
+/// Rows in which some cells of both models are about to divide.
+World make_mothers(const Ranks& ranks) {
+  World world = make_rows(ranks, false);
+  world.params.life.type = {cycle_params()};
+  world.params.life.remesh = false;
+  world.state.next_lineage = kRowShells + kRowSpheres;
+  begin_life(world);
+  State& s = world.state;
+  for_each_cell(s, [&](const Cell& c) {
+    const double now = volume_of(s, c).at(s.clock.time);
+    volume_of(s, c) = Ramp::constant(now);
+    if (lineage_of(s, c) % 24 == 5) s.cycle[c.index].birth_volume = now / 2;
+  });
+  return world;
+}
+
+TEST(NearCells, DivideWithoutPointsOfAllCells) {
+  const auto divide = [](World& world, Workspace& work) {
+    take_steps(2, world, work);
+    const LifeReport report = live(world, work);
+    EXPECT_EQ(count_events(report, EventKind::kDivision), (kRowShells + kRowSpheres) / 24);
+    return report;
+  };
+  World alone = make_mothers(Ranks::serial());
+  Workspace work;
+  const LifeReport expected = divide(alone, work);
+  ASSERT_TRUE(take_step(alone, work, 60).accepted);
+  for (const Sharing sharing : {Sharing::kBalanced, Sharing::kRandom}) {
+    World shared = make_mothers(Ranks::world());
+    shared.sharing = sharing;
+    Workspace of_part;
+    const LifeReport report = divide(shared, of_part);
+    EXPECT_EQ(shared.state.near_set, shared.ranks.is_alone() ? 0 : kOwnPoints);
+    ASSERT_EQ(report.divisions.size(), expected.divisions.size());
+    for (std::size_t k = 0; k < report.divisions.size(); ++k) {
+      EXPECT_EQ(report.divisions[k].settled_shift, expected.divisions[k].settled_shift);
+      EXPECT_EQ(report.divisions[k].outside, expected.divisions[k].outside);
+      EXPECT_EQ(report.events[k].message, expected.events[k].message);
+    }
+    ASSERT_TRUE(take_step(shared, of_part, 60).accepted);
+    complete(shared, of_part);
+    EXPECT_EQ(hash_state(shared.state), hash_state(alone.state));
   }
 }
 

@@ -254,29 +254,21 @@ TEST(SortByPlace, IsAPermutationThatBringsNeighboursTogether) {
     const int shuffled = k * 181 % 512;
     cells.push_back({24.0 * Vec3(shuffled % 8, shuffled / 8 % 8, shuffled / 64), k % 8 == 0});
   }
-  const State s = make_test_world(cells, 60, 12).state;
-  std::vector<SelectedCell<State>> shells = list_dcm(s), spheres = list_cbm(s);
-  const auto walk = [&](const std::vector<SelectedCell<State>>& members) {
+  State s = make_test_world(cells, 60, 12).state;
+  const auto walk = [&s] {
     double length = 0;
-    for (std::size_t k = 1; k < members.size(); ++k)
-      length +=
-          (cbm::center_of(s.cbm, members[k].index) - cbm::center_of(s.cbm, members[k - 1].index))
-              .norm();
+    for (std::size_t k = 1; k < s.cbm.n_cell(); ++k)
+      length += (cbm::center_of(s.cbm, k) - cbm::center_of(s.cbm, k - 1)).norm();
     return length;
   };
-  const auto indices = [](const std::vector<SelectedCell<State>>& members) {
-    std::multiset<std::size_t> set;
-    for (const SelectedCell<State>& m : members) set.insert(m.index);
-    return set;
-  };
-  const double before = walk(spheres);
-  const auto shell_set = indices(shells), sphere_set = indices(spheres);
-  sort_by_place(shells, spheres);
-  EXPECT_EQ(indices(shells), shell_set);
-  EXPECT_EQ(indices(spheres), sphere_set);
-  EXPECT_LT(walk(spheres), 0.4 * before);
+  const double before = walk();
+  const std::vector<std::int64_t> all = lineages(s);
+  exchange_cells(Ranks::serial(), std::vector<std::uint8_t>(s.dcm.n_lane() + s.cbm.n_cell(), 0), {},
+                 {}, s);
+  EXPECT_EQ(lineages(s), all);
+  EXPECT_LT(walk(), 0.4 * before);
   // A Hilbert curve through a full grid takes single steps; one place in eight is a shell.
-  EXPECT_LT(walk(spheres), 1.5 * 24 * 512);
+  EXPECT_LT(walk(), 1.5 * 24 * 512);
 }
 
 }  // namespace
