@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "coupling/life/life.hpp"
+#include "coupling/life/mesh_health.hpp"
 #include "coupling/life/rules.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/measure/node_measures.hpp"
@@ -200,6 +201,49 @@ TEST(NearCells, DivideWithoutPointsOfAllCells) {
       EXPECT_EQ(report.divisions[k].outside, expected.divisions[k].outside);
       EXPECT_EQ(report.events[k].message, expected.events[k].message);
     }
+    ASSERT_TRUE(take_step(shared, of_part, 60).accepted);
+    complete(shared, of_part);
+    EXPECT_EQ(hash_state(shared.state), hash_state(alone.state));
+  }
+}
+
+/// Moves a node of some meshes almost onto the next one, on all processes that have its cell.
+void spoil_meshes(World& world) {
+  State& s = world.state;
+  for (std::size_t lane = 0; lane < s.dcm.n_lane(); ++lane) {
+    if (s.dcm.lineage[lane] % 20 != 3) continue;
+    if (!holds_points(world.ranks, s, lane) && !std::ranges::binary_search(s.near, lane)) continue;
+    const geometry::Topology& t = *s.dcm.group[lane / kLanes].topology;
+    std::vector<Vec3> node;
+    dcm::copy_nodes(s.dcm, lane, node);
+    node[20] = 0.02 * node[20] + 0.98 * node[t.ring[t.ring_start[20]]];
+    dcm::store_nodes(node, lane, s.dcm);
+  }
+}
+
+TEST(NearCells, MendMeshesWithoutPointsOfAllCells) {
+  const auto mend = [](World& world, Workspace& work) {
+    world.params.life.grid = 60;
+    take_steps(2, world, work);
+    spoil_meshes(world);
+    LifeReport report;
+    mend_meshes(world, work, report);
+    EXPECT_EQ(count_events(report, EventKind::kRemeshed), 4);
+    return report;
+  };
+  World alone = make_rows(Ranks::serial(), false);
+  Workspace work;
+  const LifeReport expected = mend(alone, work);
+  ASSERT_TRUE(take_step(alone, work, 60).accepted);
+  for (const Sharing sharing : {Sharing::kBalanced, Sharing::kRandom}) {
+    World shared = make_rows(Ranks::world(), false);
+    shared.sharing = sharing;
+    Workspace of_part;
+    const LifeReport report = mend(shared, of_part);
+    EXPECT_EQ(shared.state.near_set, shared.ranks.is_alone() ? 0 : kOwnPoints);
+    ASSERT_EQ(report.events.size(), expected.events.size());
+    for (std::size_t k = 0; k < report.events.size(); ++k)
+      EXPECT_EQ(report.events[k].message, expected.events[k].message);
     ASSERT_TRUE(take_step(shared, of_part, 60).accepted);
     complete(shared, of_part);
     EXPECT_EQ(hash_state(shared.state), hash_state(alone.state));
