@@ -36,7 +36,7 @@ FrameSource source_of(const Frame& frame) {
   };
   s.surfaces = [&frame](const auto& take) {
     const std::size_t n = frame.triangle.size();
-    const auto part = [&frame, n](auto f) {  // f(values, components): a part of them
+    const auto part = [&frame](auto f) {  // f(values, components): a part of them
       CellRows rows{{}, f(std::span(frame.cell_id), 1), f(std::span(frame.kind), 1), {}};
       for (const Field& field : frame.cell_data)
         rows.data.push_back(f(std::span(field.value), field.components));

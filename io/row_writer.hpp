@@ -9,9 +9,13 @@
 #include <vector>
 
 #include "io/hdf5.hpp"
-#include "io/run_rows.hpp"
 
 namespace acinus::io {
+
+/// Rows per chunk of the large arrays. Filtered frames start on a chunk: a chunk that two frames
+/// share would be compressed anew in place, and a kill at that moment would damage the finished
+/// frame.
+inline constexpr std::int64_t kChunkRows = 16384;
 
 /// Writer of consecutive rows. A compressed dataset gets whole chunks from the first row on, so
 /// that none is compressed twice.

@@ -6,8 +6,6 @@
 #include <memory>
 #include <optional>
 
-#include "io/row_writer.hpp"
-
 namespace acinus::io {
 namespace {
 
@@ -39,10 +37,10 @@ class RowHash {
   std::uint64_t value() const { return XXH3_64bits_digest(state_.get()); }
 
  private:
-  struct Free {
+  struct FreeHash {
     void operator()(XXH3_state_t* s) const { XXH3_freeState(s); }
   };
-  std::unique_ptr<XXH3_state_t, Free> state_;
+  std::unique_ptr<XXH3_state_t, FreeHash> state_;
 };
 
 template <class T>

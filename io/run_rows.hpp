@@ -11,14 +11,11 @@
 #include "io/frame.hpp"
 #include "io/frame_source.hpp"
 #include "io/hdf5.hpp"
+#include "io/row_writer.hpp"
 #include "io/run_layout.hpp"
 
 namespace acinus::io {
 
-/// Rows per chunk of the large arrays. Filtered frames start on a chunk: a chunk that two frames
-/// share would be compressed anew in place, and a kill at that moment would damage the finished
-/// frame.
-inline constexpr std::int64_t kChunkRows = 16384;
 inline constexpr std::int64_t kTableChunkRows = 4096;  ///< of kFrameTables, unfiltered
 inline constexpr std::int64_t kIndexChunkRows = 1024;
 inline constexpr int kCodeWidth = 32;

@@ -1,6 +1,6 @@
 #pragma once
-/// Sharing of divided cells: the process that holds a mother divides it, and tells all others of
-/// the daughters.
+/// Exchange of daughters: the process that holds a mother divides it and sends the daughters to all
+/// others.
 
 #include <algorithm>
 #include <cstdint>
@@ -24,7 +24,7 @@ inline bool is_mine(const World& world, const Cell& mother) {
   return s.cell_holder.empty() || process_of(s, mother) == world.ranks.rank();
 }
 
-/// Tells all processes of the daughters. Collective.   @pre cells have holders
+/// Sends the daughters to all processes. Collective.   @pre cells have holders
 /// @param done       [mothers] 1: divided; known on the process of a mother, then on all
 /// @param daughters  [mothers] likewise
 /// @param why        [mothers] likewise, reason of those that were not divided

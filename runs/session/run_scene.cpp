@@ -176,11 +176,10 @@ void SceneRun::write_frame(bool last) {
   const Excess& start = recorder_.excess();
   if (!first || start.depth_um <= 0) return;
   simulation_.complete_points();  // for the advice
-  const std::string warning = fmt::format(
+  warn(fmt::format(
       "the scene starts with overlaps: {}. Until contact has pushed them apart, forces and "
       "pressures mean nothing; if they do not shrink from frame to frame, the run stops. {}",
-      start.cause, advise_start(scene_, world(), start));
-  warn(warning);
+      start.cause, advise_start(scene_, world(), start)));
 }
 
 /// Writes frames and checkpoints that are due, after the life events of a step.
@@ -222,7 +221,7 @@ coupling::Observer SceneRun::observer() {
 }
 
 void SceneRun::close(RunOutcome status, const std::string& cause) {
-  simulation_.complete_state();  // the root tells of the whole
+  simulation_.complete_state();  // before idle rules and results are listed
   if (const auto& spheres = simulation_.work().cbm; spheres.beyond > 0) {
     note(fmt::format(
         "the stiffness of spheres was evaluated beyond the range of its law in {:.2g} % of cases",
@@ -266,29 +265,27 @@ int SceneRun::finish(const coupling::LoopResult& steps) {
   if (steps.last.interrupted) stopped_by_ = reason_to_stop();
   if (!steps.ok && stopped_by_.empty()) {
     simulation_.complete_points();  // for the advice
-    const coupling::StepResult& step = steps.last;
     return give_up(
         fmt::format(
             "a step of {} s still fails at t = {:.4g} h: {}. Cells concerned: {}. The last good "
             "state is in {}. {}",
-            world().params.numerics.min_step, time() / 3600, step.cause,
-            step.cells.empty() ? std::string("none named")
-                               : fmt::format("{}", fmt::join(step.cells, ", ")),
-            options_.out, advise(world(), step)),
-        step.cells);
+            world().params.numerics.min_step, time() / 3600, steps.last.cause,
+            steps.last.cells.empty() ? std::string("none named")
+                                     : fmt::format("{}", fmt::join(steps.last.cells, ", ")),
+            options_.out, advise(world(), steps.last)),
+        steps.last.cells);
   }
   if (!stopped_by_.empty()) {
     stop(stopped_by_);
     return static_cast<int>(Exit::kStopped);
   }
   if (excess_.depth_um == 0) excess_ = recorder_.excess();
-  if (excess_.depth_um > 0) {
-    simulation_.complete_points();
+  if (excess_.depth_um > 0) simulation_.complete_points();
+  if (excess_.depth_um > 0)
     return give_up(
         fmt::format("at t = {:.4g} h {}. The last frame in {} shows it. {}", time() / 3600,
                     excess_.cause, options_.out, advise(world(), excess_)),
         excess_.cells);
-  }
   close(RunOutcome::kCompleted, "");
   return static_cast<int>(Exit::kDone);
 }

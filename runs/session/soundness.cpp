@@ -67,7 +67,7 @@ Excess find_lost_sphere(const coupling::AuditResult& audit, const coupling::Worl
              {s.lineage[k]}};
   };
   for (std::size_t k = 0; k < s.n_cell(); ++k) {
-    if (work.cbm.is_ghost(k)) continue;  // its owner looks at it
+    if (work.cbm.is_ghost(k)) continue;  // audited by its owner
     const Vec3 x = cbm::center_of(s, k);
     contact::for_each_wall(boundary, [&](auto, auto, const auto& wall) {
       look(k, k, contact::gap_to_wall(wall, x, time), [&] { return contact::wall_label(wall); });

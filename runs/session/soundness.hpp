@@ -27,7 +27,7 @@ struct Excess {
 /// outside its cortex by more than half of max_depth; a sphere whose centre lies in a cell, another
 /// sphere, a vessel, behind a wall or on the wrong side of a static mesh, where forces no longer
 /// separate them.
-/// Each process looks at its own cells. Collective.   @pre observe() of the same moment
+/// Each process audits its own cells. Collective.   @pre observe() of the same moment
 Excess find_excess(const coupling::AuditResult& audit, const coupling::World& world,
                    const coupling::Workspace& work);
 
