@@ -6,8 +6,8 @@
 
 #include "core/error.hpp"
 #include "coupling/measure/adhesion.hpp"
-#include "coupling/measure/node_measures.hpp"
 #include "coupling/measure/measure.hpp"
+#include "coupling/measure/node_measures.hpp"
 #include "coupling/simulation.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "runs/assemble/build_world.hpp"
