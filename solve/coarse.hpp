@@ -4,7 +4,7 @@
 ///
 /// Friction and contact between cells decide how fast the iteration converges in packed tissue; the
 /// diagonal blocks do not couple neighbours. P is a Chebyshev polynomial of E, scaled by its
-/// diagonal entries (decision 62): products alone, in which each process, and each thread, has the
+/// diagonal entries (decision 63): products alone, in which each process, and each thread, has the
 /// rows of its own cells.
 
 #include <Eigen/Core>

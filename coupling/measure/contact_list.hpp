@@ -8,7 +8,7 @@
 
 namespace acinus::coupling {
 
-/// Contacts of all cells with an area or a force, in the order of ContactSums, over all processes.
+/// Contacts of all cells with an area or a force, in the order of sum_contacts, over all processes.
 /// @param cells  of measure_cells()   @pre observe
 std::vector<CellContact> list_contacts(const World& world, const Workspace& work,
                                        const std::vector<CellMeasure>& cells);
