@@ -45,6 +45,9 @@ struct TypePair {
 /// Scratch of the contact search. Cells are partitioned into one range per thread. A thread adds to
 /// the cells of its own range only and computes pairs across ranges redundantly.
 struct ContactWorkspace {
+  /// [n_cell] 1: does not move; empty: all move. Set by the caller. Their contacts with constrained
+  /// deformable cells are left out.
+  std::vector<std::uint8_t> constrained;
   /// [n_cell] kFar: ghost cell, computed by another process; empty: none. Set by the caller.
   /// refresh_pairs and the DCM-CBM interface make those near own cells kNear. Sums over the
   /// contacts of a cell are complete for own cells only, and kFar cells have no numbers. kAbsent
@@ -77,6 +80,9 @@ struct ContactWorkspace {
   std::int64_t corrected = 0, beyond = 0;  ///< moduli by a law, and those beyond its range
 
   static constexpr std::uint8_t kFar = 1, kNear = 2, kAbsent = contact::kAbsentSphere;
+  bool is_constrained(std::size_t cell) const {
+    return !constrained.empty() && constrained[cell] != 0;
+  }
   bool is_ghost(std::size_t cell) const { return !ghost.empty() && ghost[cell] != 0; }
   bool is_absent(std::size_t cell) const { return !ghost.empty() && ghost[cell] == kAbsent; }
   bool is_far(std::size_t cell) const {

@@ -199,6 +199,10 @@ void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
       cbm::count_overlap(cbm_work, i, std::max(relative, 0.0), 1);
     }
   }
+  std::erase_if(work.near, [&](const std::pair<int, int>& p) {
+    return dcm_work.is_constrained_body(static_cast<std::size_t>(p.first)) &&
+           cbm_work.is_constrained(static_cast<std::size_t>(p.second));
+  });
   if (triangles) return;
   for_each_index(pairs.size(), true,
                  [&](std::size_t p) { find_pair(in, dcm_work, pairs[p], range, found[p]); });

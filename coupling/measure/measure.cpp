@@ -7,7 +7,12 @@
 #include "coupling/measure/cell_numbers.hpp"
 #include "coupling/measure/contact_forces.hpp"
 #include "coupling/measure/contact_sums.hpp"
+#include "coupling/step/constrained_points.hpp"
+#include "coupling/step/contact_search.hpp"
+#include "coupling/step/references.hpp"
 #include "coupling/step/step.hpp"
+#include "coupling/world/contact_input.hpp"
+#include "dcm/contact/contact_loads.hpp"
 #include "dcm/contact/contact_points.hpp"
 #include "dcm/lane_data.hpp"
 #include "dcm/terms/area.hpp"
@@ -116,6 +121,18 @@ void add_contacts(const World& world, const Workspace& w, const CellNumbers& num
 }  // namespace
 
 void observe(const World& world, Workspace& w) { assemble(world, kNow, w); }
+
+void observe_contacts(const World& world, Workspace& w) {
+  const double end = world.state.clock.time + kNow;
+  refresh_references(world, world.state, end, w);
+  apply_constraints(w);
+  refresh_contacts(world, world.state, end, w);
+  const PhaseParams phase = phase_params(world);
+  const InterfaceInput in = contact_input(world, world.state, phase, 0, w);
+  solve::Links links;
+  dcm::add_contact_loads(in.dcm, w.dcm, w.contacts, links);
+  add_interface_loads(in, w.dcm, w.cbm.modulus, w.contacts, links);
+}
 
 std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
   const CellNumbers numbers = number_cells(world.state, w);

@@ -53,6 +53,9 @@ namespace acinus::coupling {
 /// Assembles the loads of the present time without a step; State is not changed.
 void observe(const World& world, Workspace& work);
 
+/// Computes contact forces of the present time alone, for visit_contacts.
+void observe_contacts(const World& world, Workspace& work);
+
 /// Measures of all cells, deformable ones first, in storage order, over all processes. Collective
 /// call, like all measures below.   @pre observe
 std::vector<CellMeasure> measure_cells(const World& world, const Workspace& work);

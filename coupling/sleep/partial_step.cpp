@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <memory>
 #include <utility>
 
 #include "coupling/migration/leaders.hpp"
 #include "coupling/step/held_cells.hpp"
 #include "coupling/step/held_contacts.hpp"
+#include "coupling/subworld/ring.hpp"
 #include "coupling/world/cell.hpp"
-#include "dcm/contact/contact.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -24,36 +23,6 @@ CellSet find_cells(const State& s, bool asleep) {
     if ((s.asleep[c.index] != 0) == asleep) (c.deformable ? cells.dcm : cells.cbm).push_back(c.at);
   });
   return cells;
-}
-
-/// Gap, um, beyond which two cells cannot interact, with a reserve for growth during a step.
-double compute_reach(const World& world) {
-  const State& s = world.state;
-  const Params& p = world.params;
-  const std::vector<double> shell = dcm::reference_radii(s.dcm, s.clock.time),
-                            sphere = cbm::radii_at(s.cbm, s.clock.time);
-  double reach = cbm::largest_separation(s.cbm, p.cbm, sphere, p.boundary) + p.cbm_contact.skin;
-  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
-    if (s.dcm.active(l))
-      reach = std::max(reach, p.dcm_contact.skin +
-                                  dcm::contact_range(p.dcm_contact,
-                                                     *s.dcm.group[l / kLanes].topology, shell[l]));
-  return reach;
-}
-
-/// Union of two sets, ascending.
-CellSet unite(const CellSet& a, const CellSet& b) {
-  CellSet all;
-  std::ranges::set_union(a.dcm, b.dcm, std::back_inserter(all.dcm));
-  std::ranges::set_union(a.cbm, b.cbm, std::back_inserter(all.cbm));
-  return all;
-}
-
-CellSet subtract(const CellSet& a, const CellSet& b) {
-  CellSet rest;
-  std::ranges::set_difference(a.dcm, b.dcm, std::back_inserter(rest.dcm));
-  std::ranges::set_difference(a.cbm, b.cbm, std::back_inserter(rest.cbm));
-  return rest;
 }
 
 /// Chooses leaders among all cells, since a sleeper may be in front of an awake cell.
@@ -172,14 +141,6 @@ StepResult step_awake(World& world, Workspace& w, AwakePart& kept, CellSet awake
 }
 
 }  // namespace
-
-CellSet find_ring(const World& world, const CellSet& cells) {
-  const double reach = compute_reach(world);
-  const CellSet near = find_neighbours(world, cells, reach);
-  if (near.cbm.empty()) return near;
-  const CellSet next = find_neighbours(world, {{}, near.cbm}, reach);
-  return subtract(unite(near, next), cells);
-}
 
 StepResult advance(World& world, Workspace& w, AwakePart& part, double limit) {
   if (count_asleep(world.state) == 0) return take_step(world, w, limit);

@@ -14,10 +14,6 @@
 
 namespace acinus::coupling {
 
-/// Cells needed around others in their step: all contact candidates, and the neighbours of spheres
-/// among these, whose stiffness depends on all their contacts.
-CellSet find_ring(const World& world, const CellSet& cells);
-
 /// Subworld of the awake cells, kept between steps while the set of all cells is the same.
 struct AwakePart {
   std::unique_ptr<Subworld> subworld;

@@ -24,6 +24,7 @@ void for_each_constrained_point(const Workspace& w, F f) {
 
 void apply_constraints(Workspace& w) {
   w.dcm.constrained.clear();
+  w.cbm.constrained.clear();
   for (std::size_t lane = 0; lane < w.dcm.ghost.size(); ++lane)
     if (w.dcm.ghost[lane] != 0) w.lanes.active[lane] = 0;
   if (!w.constraint.applies()) return;
@@ -31,6 +32,9 @@ void apply_constraints(Workspace& w) {
     w.dcm.constrained.push_back(w.constraint.holds(lane) ? 1 : 0);
     if (w.dcm.constrained[lane] != 0) w.lanes.active[lane] = 0;
   }
+  const std::span<const std::uint8_t> all = w.constraint.cell;
+  const auto spheres = all.subspan(w.lanes.active.size());
+  w.cbm.constrained.assign(spheres.begin(), spheres.end());
 }
 
 void add_constraint(double step, Workspace& w) {

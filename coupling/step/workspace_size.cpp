@@ -47,6 +47,10 @@ void size_workspace(const World& world, Workspace& w) {
     solve::clear_own_rows(w.system, kPointStride, *v);
   }
   ++w.sized;
+  begin_contacts(world, w);
+}
+
+void begin_contacts(const World& world, Workspace& w) {
   w.dcm.lane_of_body.clear();
   w.cbm.list_position.clear();
   w.dcm.fixed.clear();

@@ -10,6 +10,9 @@ namespace acinus::coupling {
 /// first step.
 void size_workspace(const World& world, Workspace& work);
 
+/// The part of it that contacts need: their search begins anew with the present set of cells.
+void begin_contacts(const World& world, Workspace& work);
+
 /// Frees what a step makes anew for its solve, as room for a frame: what is written is then the
 /// only large thing besides contacts and matrix.
 void release_scratch(Workspace& work);

@@ -1,23 +1,85 @@
 #include "coupling/zoom/pair_forces.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
+#include <utility>
 
+#include "cbm/contact.hpp"
 #include "core/sphere.hpp"
 #include "coupling/measure/contact_forces.hpp"
+#include "coupling/measure/measure.hpp"
+#include "coupling/step/workspace_size.hpp"
+#include "coupling/subworld/population.hpp"
+#include "coupling/subworld/ring.hpp"
+#include "coupling/vessels/vessel_tree.hpp"
 #include "coupling/world/cell.hpp"
 
 namespace acinus::coupling {
 namespace {
 
-/// Lineages in the order of measure_cells.
-std::vector<std::int64_t> list_lineages(const World& world, const Workspace& work) {
+/// Cells of some lineages, and those that fading forces join to them.
+struct FoundCells {
+  CellSet cells, joined;
+};
+
+FoundCells find_cells(const State& s, const std::set<std::int64_t>& lineages) {
+  std::set<std::int64_t> partners;
+  for (const FadingForce& f : s.fading)
+    if (lineages.contains(f.a) || lineages.contains(f.b)) partners.insert({f.a, f.b});
+  FoundCells found;
+  for_each_cell(s, [&](const Cell& c) {
+    const std::int64_t lineage = lineage_of(s, c);
+    const auto keep = [&c](CellSet& set) { (c.deformable ? set.dcm : set.cbm).push_back(c.at); };
+    if (lineages.contains(lineage)) keep(found.cells);
+    if (partners.contains(lineage)) keep(found.joined);
+  });
+  return found;
+}
+
+/// Some cells among all that decide their contact forces, which are constrained. Their order is
+/// that of the whole world, so that sums are the same to the bit.
+struct Surroundings {
+  World world;
+  Workspace work;
+
+  Surroundings(const World& whole, const std::set<std::int64_t>& lineages) {
+    const State& s = whole.state;
+    const auto [cells, joined] = find_cells(s, lineages);
+    const CellSet ring = cbm::has_correction(whole.params.cbm)
+                             ? find_ring(whole, cells)
+                             : find_neighbours(whole, cells, contact_reach(whole));
+    const CellSet all = unite(unite(cells, ring), joined);
+    std::vector<SelectedCell<State>> shells, spheres;
+    for (const std::size_t lane : all.dcm) shells.push_back({&s, lane});
+    for (const std::size_t sphere : all.cbm) spheres.push_back({&s, sphere});
+    world.params = whole.params;
+    if (!s.tree.node.empty())
+      place_vessels(whole.params.tree, s.tree, world.params.boundary.vessels);
+    world.state = compose(shells, spheres, s);
+    const State& part = world.state;
+    work.constraint.cell.assign(part.dcm.n_lane() + part.cbm.n_cell(), 0);
+    for_each_cell(part, [&](const Cell& c) {
+      work.constraint.cell[c.index] = lineages.contains(lineage_of(part, c)) ? 0 : 1;
+    });
+    begin_contacts(world, work);
+    observe_contacts(world, work);
+  }
+};
+
+/// Cell as ContactForce numbers it.
+struct NumberedCell {
+  std::int64_t lineage = 0;
+  double volume = 0;  ///< um^3, reference volume
+};
+
+std::vector<NumberedCell> list_numbered(const World& world, const Workspace& work) {
   const State& s = world.state;
-  std::vector<std::int64_t> lineage;
-  for (const std::size_t lane : work.dcm.lane_of_body) lineage.push_back(s.dcm.lineage[lane]);
-  lineage.insert(lineage.end(), s.cbm.lineage.begin(), s.cbm.lineage.end());
-  return lineage;
+  std::vector<NumberedCell> cells;
+  for (const std::size_t lane : work.dcm.lane_of_body)
+    cells.push_back({s.dcm.lineage[lane], sphere_volume(work.lanes.radius[lane])});
+  for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
+    cells.push_back({s.cbm.lineage[c], sphere_volume(work.cbm_radius[c])});
+  return cells;
 }
 
 /// Largest compression of a cell by a fading force, as a share of its volume. Differences between
@@ -40,41 +102,34 @@ PairForce force_of(const PairForces& forces, const PairForces::key_type& pair) {
   return at == forces.end() ? PairForce{} : at->second;
 }
 
-/// Exchanges pair forces among all processes. The owner of either cell has all its contacts, so
-/// both processes have the same force.
-void gather(const solve::Ownership& ownership, PairForces& forces) {
-  if (ownership.is_whole()) return;
-  struct PairEntry {
-    std::int64_t a, b;
-    std::array<double, 4> number;
-  };
-  std::vector<PairEntry> own, all;
-  for (const auto& [pair, sum] : forces)
-    own.push_back(
-        {pair.first, pair.second, {sum.force.x(), sum.force.y(), sum.force.z(), sum.virial}});
-  ownership.ranks.gather<PairEntry>(own, all);
-  for (const PairEntry& e : all)
-    forces[{e.a, e.b}] = {Vec3(e.number[0], e.number[1], e.number[2]), e.number[3]};
-}
-
 }  // namespace
 
-PairForces compute_pair_forces(const World& world, const Workspace& work,
-                               const std::set<std::int64_t>& cells) {
-  const std::vector<std::int64_t> lineage = list_lineages(world, work);
-  PairForces forces;
-  visit_contacts(world, work, [&](const ContactForce& f) {
-    const std::int64_t a = lineage[f.a], b = f.b == kNoCell ? kNoPartner : lineage[f.b];
+CellContacts evaluate_contacts(const World& world, const std::set<std::int64_t>& cells) {
+  const Surroundings around(world, cells);
+  const std::vector<NumberedCell> number = list_numbered(around.world, around.work);
+  CellContacts found;
+  std::map<std::int64_t, Vec3> stress;  // its diagonal
+  const auto press = [&](const NumberedCell& c, const Vec3& force, const Vec3& arm) {
+    if (!cells.contains(c.lineage)) return;
+    Vec3& sum = stress.try_emplace(c.lineage, Vec3::Zero()).first->second;
+    const double w = 1 / c.volume;
+    for (int k = 0; k < 3; ++k) sum[k] += w * force[k] * arm[k];
+  };
+  visit_contacts(around.world, around.work, [&](const ContactForce& f) {
+    press(number[f.a], f.force, f.arm_a);
+    if (f.b != kNoCell) press(number[f.b], -f.force, f.arm_b);
+    const std::int64_t a = number[f.a].lineage,
+                       b = f.b == kNoCell ? kNoPartner : number[f.b].lineage;
     if (a == b || f.fades || (!cells.contains(a) && !cells.contains(b))) return;
     const bool swap = b != kNoPartner && b < a;
-    const auto pair = swap ? std::pair(b, a) : std::pair(a, b);
-    PairForce& sum = forces[pair];
+    PairForce& sum = found.pair[swap ? std::pair(b, a) : std::pair(a, b)];
     const Vec3 force = swap ? Vec3(-f.force) : f.force;
     sum.force += force;
     sum.virial += force.dot(swap ? f.arm_b : f.arm_a);
   });
-  gather(work.system.ownership, forces);
-  return forces;
+  for (const std::int64_t cell : cells) found.pressure[cell] = 0;
+  for (const auto& [cell, sum] : stress) found.pressure[cell] = -(sum[0] + sum[1] + sum[2]) / 3;
+  return found;
 }
 
 void add_fading(const World& world, const PairForces& before, const PairForces& after,
@@ -85,14 +140,19 @@ void add_fading(const World& world, const PairForces& before, const PairForces& 
     Vec3 center = Vec3::Zero();
     double radius = kAny, most_force = kAny;
   };
-  std::map<std::int64_t, CellLimits> limits{{kNoPartner, {}}};
-  for_each_cell(s, [&](const Cell& c) {
-    const double radius = sphere_radius(volume_of(s, c).at(s.clock.time));
-    limits[lineage_of(s, c)] = {center_of(s, c), radius, largest_fading(world, c, radius)};
-  });
   std::set<PairForces::key_type> pairs;
+  std::map<std::int64_t, CellLimits> limits;
   for (const PairForces* forces : {&before, &after})
-    for (const auto& [pair, force] : *forces) pairs.insert(pair);
+    for (const auto& [pair, force] : *forces) {
+      pairs.insert(pair);
+      limits[pair.first] = limits[pair.second] = {};
+    }
+  for_each_cell(s, [&](const Cell& c) {
+    const auto found = limits.find(lineage_of(s, c));
+    if (found == limits.end()) return;
+    const double radius = sphere_radius(volume_of(s, c).at(s.clock.time));
+    found->second = {center_of(s, c), radius, largest_fading(world, c, radius)};
+  });
   const double now = s.clock.time;
   for (const auto& pair : pairs) {
     const PairForce was = force_of(before, pair), is = force_of(after, pair);

@@ -20,10 +20,16 @@ struct PairForce {
 /// Pair forces by the two lineages in ascending order; with boundary: (cell, kNoPartner).
 using PairForces = std::map<std::pair<std::int64_t, std::int64_t>, PairForce>;
 
-/// Contact forces of cells with each other and with all others, without fading forces.
-/// @param cells  lineages      @pre observe
-PairForces compute_pair_forces(const World& world, const Workspace& work,
-                               const std::set<std::int64_t>& cells);
+/// Contacts of some cells.
+struct CellContacts {
+  PairForces pair;                          ///< with each other and all others, without what fades
+  std::map<std::int64_t, double> pressure;  ///< kPa, contact pressure of each
+};
+
+/// Evaluates the contacts of some cells among their neighbours alone. Every process has the same
+/// result.
+/// @param cells  lineages      @pre points, contacts and last moves of all cells are complete
+CellContacts evaluate_contacts(const World& world, const std::set<std::int64_t>& cells);
 
 /// Fading forces that keep every pair force continuous over a change of model. Between two cells
 /// they act along the line of centres, without torque. Their virial restores the pressure of both.

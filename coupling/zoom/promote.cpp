@@ -20,7 +20,7 @@ namespace {
 constexpr double kLeastVolume = 0.7;
 /// Least triangle quality of an accepted mesh.
 constexpr double kLeastShapeQuality = 0.1;
-constexpr int kFillings = 3;  ///< corrections of the enclosed volume
+constexpr int kFillings = 2;  ///< trials of the enclosed volume; the rest is scaled
 
 std::vector<Vec3> directions(const geometry::Topology& t, const Mat3& turn) {
   std::vector<Vec3> direction;

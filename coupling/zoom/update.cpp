@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -146,12 +147,12 @@ void exchange(const std::vector<std::uint8_t>& gone, const std::vector<State>& f
 }
 
 std::vector<NewShell> shape_spheres(const World& world, const std::vector<Candidate>& promote,
-                                    const std::vector<double>& pressure) {
+                                    const std::map<std::int64_t, double>& pressure) {
   std::vector<NewShell> shells(promote.size());
   const std::vector<double> radius = cbm::radii_at(world.state.cbm, world.state.clock.time);
   for_each_part(promote.size(), [&](std::size_t k) {
-    const Cell& c = promote[k].cell;
-    shells[k] = shape_sphere(world, c.at, pressure[c.index], radius);
+    const Candidate& c = promote[k];
+    shells[k] = shape_sphere(world, c.cell.at, pressure.at(c.lineage), radius);
   });
   return shells;
 }
@@ -193,8 +194,8 @@ bool settle(World& world, const std::vector<std::int64_t>& meshes, double step,
 }
 
 /// Changes the models of the candidates; cells without an acceptable shape keep theirs.
-void change_models(World& world, const Switches& all, const std::vector<double>& pressure,
-                   ZoomReport& report) {
+void change_models(World& world, const Switches& all,
+                   const std::map<std::int64_t, double>& pressure, ZoomReport& report) {
   State& s = world.state;
   const std::vector<NewShell> shells = shape_spheres(world, all.promote, pressure);
   std::vector<std::uint8_t> gone(s.dcm.n_lane() + s.cbm.n_cell(), 0);
@@ -209,14 +210,14 @@ void change_models(World& world, const Switches& all, const std::vector<double>&
     fresh.push_back(make_shell(world, c.cell.at, shells[k]));
     report.changes.push_back({EventKind::kPromotion, c.lineage,
                               fmt::format("becomes deformable at a pressure of {:.3g} Pa",
-                                          1e3 * pressure[c.cell.index])});
+                                          1e3 * pressure.at(c.lineage))});
   }
   for (const Candidate& c : all.demote) {
     gone[c.cell.index] = 1;
     fresh.push_back(make_sphere(world, c.cell.at));
     report.changes.push_back(
         {EventKind::kDemotion, c.lineage,
-         fmt::format("becomes a sphere at a pressure of {:.3g} Pa", 1e3 * pressure[c.cell.index])});
+         fmt::format("becomes a sphere at a pressure of {:.3g} Pa", 1e3 * pressure.at(c.lineage))});
   }
   if (!fresh.empty()) exchange(gone, fresh, world);
 }
@@ -240,25 +241,24 @@ ZoomReport update_zoom(World& world, Workspace& work) {
   if (zoom_needs_pressure(world.params.zoom)) pressure = observe_pressures(world, work);
   const Switches all = find_candidates(world, pressure);
   if (all.promote.empty() && all.demote.empty()) return report;
-  if (pressure.empty()) pressure = observe_pressures(world, work);
   std::set<std::int64_t> changing;
   for (const auto* list : {&all.promote, &all.demote})
     for (const Candidate& c : *list) changing.insert(c.lineage);
-  const PairForces before = compute_pair_forces(world, work, changing);
   complete_contacts(world.ranks, s);
   complete_cells(world.ranks, s);
+  const CellContacts before = evaluate_contacts(world, changing);
   State old = s;
-  change_models(world, all, pressure, report);
-  if (!settle(world, neighbours_of(s, all.demote, before), kSettlingStep, report) ||
+  change_models(world, all, before.pressure, report);
+  if (!settle(world, neighbours_of(s, all.demote, before.pair), kSettlingStep, report) ||
       !settle(world, new_meshes(s, all.promote), kSettlingStep, report)) {
     s = std::move(old);
     return {{}, true};
   }
+  const PairForces after = evaluate_contacts(world, changing).pair;
   size_workspace(world, work);
   s.clock.step = std::min(s.clock.step, kStepAfterChange);
-  observe(world, work);
   keep_fading(old, s);
-  add_fading(world, before, compute_pair_forces(world, work, changing), s.fading);
+  add_fading(world, before.pair, after, s.fading);
   return report;
 }
 

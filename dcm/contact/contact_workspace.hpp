@@ -74,6 +74,9 @@ struct ContactWorkspace {
   static constexpr std::uint8_t kAbsent = 2;
   bool is_absent(std::size_t lane) const { return !ghost.empty() && ghost[lane] == kAbsent; }
   bool is_ghost(std::size_t lane) const { return !ghost.empty() && ghost[lane] != 0; }
+  bool is_constrained_body(std::size_t b) const {
+    return !constrained.empty() && constrained[lane_of_body[b]] != 0;
+  }
   bool is_ghost_body(std::size_t b) const { return is_ghost(lane_of_body[b]); }
 };
 

@@ -2,6 +2,7 @@
 
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/step/workspace_size.hpp"
+#include "coupling/subworld/ring.hpp"
 
 #include <gtest/gtest.h>
 

@@ -90,6 +90,46 @@ TEST(Zoom, AChangeJumpsNeitherPressureNorForces) {
   }
 }
 
+// Neighbours alone decide the forces of a cell, and their order of summation is that of all cells.
+TEST(Zoom, ContactsOfSomeCellsAreThoseInTheWholeWorldToTheBit) {
+  for (const bool corrected : {false, true}) {
+    World w = make_clump_world(4, 20.5, [](int k) { return k % 3 == 0; });
+    if (corrected) w.params.cbm[0].correction = {{{5000, 4}}, {}, 0.19, 0};
+    SizedWorkspace work(w);
+    run(w, work, 600);
+    w.params.zoom.region = {ball(center_of(w.state, *find_cell(w.state, 22)), 1)};
+    w.params.zoom.margin = 1e9;
+    ASSERT_EQ(update_zoom(w, work).changes.size(), 1u);  // leaves forces that fade
+    ASSERT_FALSE(w.state.fading.empty());
+    const std::set<std::int64_t> cells{21, 22};
+    const CellContacts found = evaluate_contacts(w, cells);
+    const auto whole = measure(w, work);
+    for (const std::int64_t cell : cells) {
+      EXPECT_EQ(found.pressure.at(cell), whole.at(cell).pressure);
+      EXPECT_NE(found.pressure.at(cell), 0);
+    }
+    std::vector<std::int64_t> lineage;
+    for (const std::size_t lane : work.dcm.lane_of_body)
+      lineage.push_back(w.state.dcm.lineage[lane]);
+    lineage.insert(lineage.end(), w.state.cbm.lineage.begin(), w.state.cbm.lineage.end());
+    PairForces all;
+    visit_contacts(w, work, [&](const ContactForce& f) {
+      const std::int64_t a = lineage[f.a], b = f.b == kNoCell ? kNoPartner : lineage[f.b];
+      if (f.fades || a == b || !(cells.contains(a) || cells.contains(b))) return;
+      const bool swap = b != kNoPartner && b < a;
+      all[swap ? std::pair(b, a) : std::pair(a, b)].force += swap ? Vec3(-f.force) : f.force;
+    });
+    for (const auto& [pair, sum] : all) {
+      const auto same = found.pair.find(pair);
+      if (same == found.pair.end())
+        EXPECT_EQ(sum.force, Vec3::Zero());  // within the range of another cell's contacts
+      else
+        EXPECT_EQ(same->second.force, sum.force);
+    }
+    EXPECT_GE(found.pair.size(), 11u);
+  }
+}
+
 // In liquid nothing but the fading force acts on two cells that have come apart.
 TEST(Zoom, AFadingForceDoesNotDriveCellsAway) {
   World w =
