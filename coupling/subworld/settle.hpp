@@ -24,6 +24,9 @@ struct Settled {
 /// @param newton_step  s, length of three steps, each one Newton iteration of backward Euler; a
 ///                     rejected one is halved. 0: as many steps as the error allows, together a
 ///                     minute, or a step of the whole world if that is shorter
-Settled settle_cells(World& world, const std::vector<std::int64_t>& cells, double newton_step = 0);
+/// @param return_centers  true: the settled cells are then moved back by the shifts of their
+///                        centroids and settle for a short step, so that they hardly shift
+Settled settle_cells(World& world, const std::vector<std::int64_t>& cells, double newton_step = 0,
+                     bool return_centers = false);
 
 }  // namespace acinus::coupling

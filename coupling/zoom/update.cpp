@@ -181,11 +181,12 @@ std::vector<std::int64_t> new_meshes(const State& s, const std::vector<Candidate
   return meshes;
 }
 
-/// Settles meshes.   @return false if the process was asked to stop
-bool settle(World& world, const std::vector<std::int64_t>& meshes, double step,
+/// Settles meshes; new ones return to their places.
+/// @return false if the process was asked to stop
+bool settle(World& world, const std::vector<std::int64_t>& meshes, bool are_new,
             ZoomReport& report) {
   if (meshes.empty()) return true;
-  const Settled settled = settle_cells(world, meshes, step);
+  const Settled settled = settle_cells(world, meshes, kSettlingStep, are_new);
   if (settled.ok) return true;
   if (stop_requested()) return false;
   for (const std::int64_t cell : meshes)
@@ -249,8 +250,8 @@ ZoomReport update_zoom(World& world, Workspace& work) {
   const CellContacts before = evaluate_contacts(world, changing);
   State old = s;
   change_models(world, all, before.pressure, report);
-  if (!settle(world, neighbours_of(s, all.demote, before.pair), kSettlingStep, report) ||
-      !settle(world, new_meshes(s, all.promote), kSettlingStep, report)) {
+  if (!settle(world, neighbours_of(s, all.demote, before.pair), false, report) ||
+      !settle(world, new_meshes(s, all.promote), true, report)) {
     s = std::move(old);
     return {{}, true};
   }
