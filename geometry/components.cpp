@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/disjoint_sets.hpp"
+#include "core/sort_unique.hpp"
 
 namespace acinus::geometry {
 
@@ -12,8 +13,7 @@ Surface compacted(const std::vector<Vec3>& node, std::vector<std::array<int, 3>>
   std::vector<int> used;
   used.reserve(triangle.size() * 3);
   for (const auto& t : triangle) used.insert(used.end(), t.begin(), t.end());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  sort_unique(used);
   Surface out;
   out.node.reserve(used.size());
   for (const int index : used) out.node.push_back(node[index]);

@@ -4,12 +4,12 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 
-#include <algorithm>
 #include <array>
 #include <iterator>
 #include <utility>
 #include <vector>
 
+#include "core/sort_unique.hpp"
 #include "geometry/cgal_mesh.hpp"
 
 namespace acinus::geometry {
@@ -77,8 +77,7 @@ std::vector<int> find_crossing_triangles(const Surface& surface) {
   std::vector<int> triangles;
   for (const auto& [f, g] : pairs)
     for (const auto face : {f, g}) triangles.push_back(static_cast<int>(face.idx()));
-  std::ranges::sort(triangles);
-  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  sort_unique(triangles);
   return triangles;
 }
 

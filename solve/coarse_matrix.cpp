@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/parallel/threads.hpp"
+#include "core/sort_unique.hpp"
 #include "solve/coarse_kernels.hpp"
 #include "solve/kernels.hpp"
 #include "solve/link_kernels.hpp"
@@ -73,13 +74,6 @@ void for_each_link(const System& s, const F& f) {
   // Pairs of spheres are listed before they touch, some steps sooner or later.
   for (const PointLink& l : s.point_links)
     if (has_matrix(l, s.stiffness_scale)) f(l);
-}
-
-template <class T>
-void sort_unique(std::vector<T>& v) {
-  std::ranges::sort(v);
-  const auto repeated = std::ranges::unique(v);
-  v.erase(repeated.begin(), repeated.end());
 }
 
 }  // namespace

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "core/numbers/random.hpp"
+#include "core/sort_unique.hpp"
 
 namespace acinus::bench {
 namespace {
@@ -63,9 +63,7 @@ Json ZoomDrawing::draw_cells() {
   const int n = 1 + static_cast<int>(random_.index(3));
   for (int k = 0; k < n; ++k)
     followed.push_back(random_.index(static_cast<std::uint64_t>(setting_.cells)));
-  std::ranges::sort(followed);
-  const auto same = std::ranges::unique(followed);
-  followed.erase(same.begin(), same.end());
+  sort_unique(followed);
   return {{"kind", "cells"},
           {"cells", followed},
           {"offspring", chance(0.6)},

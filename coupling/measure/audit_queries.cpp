@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/parallel/threads.hpp"
+#include "core/sort_unique.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -55,9 +56,7 @@ class SweptBodies {
       for_cells(*q, [&](std::size_t c) {
         if (!cell_[c]) missing.push_back(c);
       });
-    std::ranges::sort(missing);
-    const auto repeated = std::ranges::unique(missing);
-    missing.erase(repeated.begin(), repeated.end());
+    sort_unique(missing);
     for_each_part(missing.size(), [&](std::size_t k) {
       const AuditMesh& mesh = frame_.meshes[missing[k]];
       cell_[missing[k]].emplace(mesh.node, mesh.triangle);

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/disjoint_sets.hpp"
+#include "core/sort_unique.hpp"
 #include "coupling/measure/cell_numbers.hpp"
 
 namespace acinus::coupling {
@@ -62,22 +63,17 @@ class PairKeys {
   void add(const PairKey& key) {
     if (!key_.empty() && key_.back() == key) return;
     if (key_.size() >= limit_) {
-      sort();
+      sort_unique(key_);
       limit_ = std::max(limit_, 2 * key_.size());
     }
     key_.push_back(key);
   }
   std::vector<PairKey> take() {
-    sort();
+    sort_unique(key_);
     return std::move(key_);
   }
 
  private:
-  void sort() {
-    std::ranges::sort(key_);
-    const auto repeated = std::ranges::unique(key_);
-    key_.erase(repeated.begin(), repeated.end());
-  }
   std::vector<PairKey> key_;
   std::size_t limit_ = 4096;
 };
@@ -128,9 +124,7 @@ std::vector<CellPair> find_touching(const World& world, const Workspace& w) {
   for (const PairKey& key : found.take()) own.push_back({key.a, key.b});
   if (w.system.ownership.is_whole()) return own;
   w.system.ownership.ranks.gather<CellPair>(own, all);
-  std::ranges::sort(all);
-  const auto repeated = std::ranges::unique(all);
-  all.erase(repeated.begin(), repeated.end());
+  sort_unique(all);
   return all;
 }
 

@@ -100,8 +100,7 @@ CellMeasure measure_sphere(const World& world, const Workspace& w, std::size_t c
 }
 
 /// Adds contact forces: stress, force sums, numbers of contacts.
-void add_contacts(const World& world, const Workspace& w, const CellNumbers& numbers,
-                  std::vector<CellMeasure>& cells) {
+void add_contacts(const World& world, const Workspace& w, std::vector<CellMeasure>& cells) {
   auto press = [&](std::size_t cell, const Vec3& force, const Vec3& arm) {
     add_stress(cells[cell], sphere_volume(cells[cell].radius), force, arm);
   };
@@ -141,7 +140,7 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     cells[numbers.of_body[k]] = measure_surface(world, w, k);
   for (std::size_t c = 0; c < world.state.cbm.n_cell(); ++c)
     if (!w.cbm.is_absent(c)) cells[numbers.of_sphere(c)] = measure_sphere(world, w, c);
-  add_contacts(world, w, numbers, cells);
+  add_contacts(world, w, cells);
   for (CellMeasure& m : cells) {
     m.pressure = -(m.stress[0] + m.stress[3] + m.stress[5]) / 3;
     if (!m.deformable) m.cytosol_pressure = m.pressure;

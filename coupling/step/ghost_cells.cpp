@@ -1,4 +1,5 @@
 #include "coupling/step/ghost_cells.hpp"
+#include "core/sort_unique.hpp"
 
 #include <algorithm>
 #include <compare>
@@ -13,19 +14,13 @@ struct SharedCell {
   auto operator<=>(const SharedCell&) const = default;
 };
 
-void sort_once(std::vector<SharedCell>& cells) {
-  std::ranges::sort(cells);
-  const auto repeated = std::ranges::unique(cells);
-  cells.erase(repeated.begin(), repeated.end());
-}
-
 /// Exchange lists between processes, derived from contacts that both sides know.
 struct SharedCells {
   std::vector<SharedCell> send, receive;
 
   void sort() {
-    sort_once(send);
-    sort_once(receive);
+    sort_unique(send);
+    sort_unique(receive);
   }
   /// Calls f(rank, first and last of send, first and last of receive) for every peer.
   template <class F>

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/sort_unique.hpp"
 #include "coupling/step/ghost_cells.hpp"
 
 namespace acinus::coupling {
@@ -18,17 +19,11 @@ int process_of_second(const PagedValues<int>& process, const Pair& pair) {
   return process[static_cast<std::size_t>(pair.second < 0 ? pair.first : pair.second)];
 }
 
-void sort_once(std::vector<Pair>& pairs) {
-  std::ranges::sort(pairs);
-  const auto repeated = std::ranges::unique(pairs);
-  pairs.erase(repeated.begin(), repeated.end());
-}
-
 /// Adds pairs of all processes, sorted.
 void add_pairs(const std::vector<Sent>& all, std::vector<Pair>& pairs) {
   if (all.empty()) return;
   for (const auto& [a, b] : all) pairs.emplace_back(a, b);
-  sort_once(pairs);
+  sort_unique(pairs);
 }
 
 /// Pairs of which this process holds the first sphere.

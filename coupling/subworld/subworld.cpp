@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/sort_unique.hpp"
 #include "coupling/step/held_cells.hpp"
 #include "coupling/step/held_contacts.hpp"
 #include "coupling/step/loop.hpp"
@@ -39,9 +40,7 @@ bool have_same_cells(const State& a, const State& b) {
 void unite(const Ranks& ranks, std::vector<std::size_t>& numbers) {
   std::vector<std::size_t> all;
   ranks.gather<std::size_t>(numbers, all);
-  std::ranges::sort(all);
-  const auto repeated = std::ranges::unique(all);  // cells that every process has
-  all.erase(repeated.begin(), repeated.end());
+  sort_unique(all);
   numbers = std::move(all);
 }
 

@@ -1,8 +1,8 @@
 #include "dcm/contact/contact_bodies.hpp"
 
-#include <algorithm>
 
 #include "core/parallel/threads.hpp"
+#include "core/sort_unique.hpp"
 
 namespace acinus::dcm {
 namespace {
@@ -51,9 +51,7 @@ void complete_bodies(const State& state, std::span<const int> bodies, ContactWor
   for (const int b : bodies)
     if (work.is_complete[b] == 0) missing.push_back(b);
   if (missing.empty()) return;
-  std::ranges::sort(missing);
-  const auto repeated = std::ranges::unique(missing);
-  missing.erase(repeated.begin(), repeated.end());
+  sort_unique(missing);
   for_each_index(missing.size(), worth_threads(state.n_row()), [&](std::size_t k) {
     complete_body(state, static_cast<std::size_t>(missing[k]), work);
   });

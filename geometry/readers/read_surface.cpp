@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/sort_unique.hpp"
 #include "geometry/bodies.hpp"
 #include "geometry/measures.hpp"
 #include "geometry/readers/input_file.hpp"
@@ -88,8 +89,7 @@ Surface read_polyhedron(const VtkLegacy& vtk, std::size_t cell) {
   // Local numbers first: copying all points of the file for each body would be quadratic.
   std::vector<int> used;
   for (const auto& corner : face) used.insert(used.end(), corner.begin(), corner.end());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  sort_unique(used);
   for (const int node : used) all.node.push_back(vtk.point[node]);
   for (std::size_t f = 0; f < face.size(); ++f) {
     for (int& node : face[f]) {

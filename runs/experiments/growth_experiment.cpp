@@ -58,7 +58,9 @@ Layout make_layout(const std::vector<coupling::CellMeasure>& cells, bool flat) {
 /// Mean pressures and density of the cells with low <= r < high; the last shell includes
 /// r = high.
 struct Shell {
-  double cells = 0, pressure_Pa = kNotMeasured, cytosol_Pa = kNotMeasured, density = kNotMeasured;
+  double cells = 0;
+  double pressure = kNotMeasured, cytosol = kNotMeasured;  ///< Pa
+  double density = kNotMeasured;
 };
 Shell measure_shell(const std::vector<coupling::CellMeasure>& cells, const Layout& layout,
                     double low, double high) {
@@ -73,8 +75,8 @@ Shell measure_shell(const std::vector<coupling::CellMeasure>& cells, const Layou
   Shell shell;
   shell.cells = count;
   if (count > 0) {
-    shell.pressure_Pa = 1e3 * pressure / count;
-    shell.cytosol_Pa = 1e3 * cytosol / count;
+    shell.pressure = 1e3 * pressure / count;
+    shell.cytosol = 1e3 * cytosol / count;
   }
   const double size = layout.flat ? kPi * (high * high - low * low)
                                   : 4.0 / 3 * kPi * (std::pow(high, 3) - std::pow(low, 3));
@@ -90,13 +92,13 @@ void add_profiles(const std::vector<coupling::CellMeasure>& cells, const Layout&
     const double high = k + 1 < kShells ? layout.largest * (k + 1) / kShells : layout.largest;
     const Shell shell = measure_shell(cells, layout, low, high);
     radius.push_back(0.5 * (low + high));
-    pressure.push_back(shell.pressure_Pa);
-    cytosol.push_back(shell.cytosol_Pa);
+    pressure.push_back(shell.pressure);
+    cytosol.push_back(shell.cytosol);
     density.push_back(shell.density);
     const std::string name = "shell_" + std::to_string(k + 1);
     m[name + "_cells"].push_back(shell.cells);
-    m[name + "_cytosol_pressure_Pa"].push_back(shell.cytosol_Pa);
-    m[name + "_contact_pressure_Pa"].push_back(shell.pressure_Pa);
+    m[name + "_cytosol_pressure_Pa"].push_back(shell.cytosol);
+    m[name + "_contact_pressure_Pa"].push_back(shell.pressure);
     m[name + "_density"].push_back(shell.density);
   }
   m["shell_width_um"].push_back(layout.largest / kShells);
@@ -195,10 +197,10 @@ void sample_growth(const ObservedFrame& frame, bool flat, Measures& m) {
   m["mean_cytosol_pressure_Pa"].push_back(cytosol);
   m["inner_cells"].push_back(inner.cells);
   m["outer_cells"].push_back(outer.cells);
-  m["inner_pressure_Pa"].push_back(inner.pressure_Pa);
-  m["outer_pressure_Pa"].push_back(outer.pressure_Pa);
-  m["inner_cytosol_pressure_Pa"].push_back(inner.cytosol_Pa);
-  m["outer_cytosol_pressure_Pa"].push_back(outer.cytosol_Pa);
+  m["inner_pressure_Pa"].push_back(inner.pressure);
+  m["outer_pressure_Pa"].push_back(outer.pressure);
+  m["inner_cytosol_pressure_Pa"].push_back(inner.cytosol);
+  m["outer_cytosol_pressure_Pa"].push_back(outer.cytosol);
   m["inner_density"].push_back(inner.density);
   m["outer_density"].push_back(outer.density);
   add_profiles(s.cells, layout, m);

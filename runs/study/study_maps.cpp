@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/sort_unique.hpp"
 #include "runs/study/scene_value.hpp"
 #include "runs/study/study_measures.hpp"
 #include "runs/study/study_value.hpp"
@@ -70,8 +71,7 @@ io::HeatMap make_map(const StudyPlan& plan, const StudyData& data, const StudyMa
         ys.push_back(place->second);
       }
   for (std::vector<double>* values : {&xs, &ys}) {
-    std::ranges::sort(*values);
-    values->erase(std::ranges::unique(*values).begin(), values->end());
+    sort_unique(*values);
   }
   io::HeatMap map;
   map.title = wanted.title.empty() ? wanted.name : wanted.title;
