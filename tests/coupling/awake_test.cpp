@@ -62,7 +62,8 @@ TEST(AwakePart, StepsAsTheWholeWorldDoesWithItsSleepersConstrained) {
   put_to_sleep(part.state);
   World whole = part;
   Workspace work, whole_work;
-  whole_work.constraint = {whole.state.asleep, true};
+  whole_work.constraint.cell = whole.state.asleep;
+  whole_work.constraint.prescribed_velocity = true;
   whole.state.asleep.clear();
   size_workspace(part, work);
   size_workspace(whole, whole_work);
