@@ -1,9 +1,10 @@
 #include "coupling/step/ghost_cells.hpp"
-#include "core/sort_unique.hpp"
 
 #include <algorithm>
 #include <compare>
 #include <span>
+
+#include "core/sort_unique.hpp"
 
 namespace acinus::coupling {
 namespace {

@@ -1,6 +1,5 @@
 #include "dcm/contact/contact_bodies.hpp"
 
-
 #include "core/parallel/threads.hpp"
 #include "core/sort_unique.hpp"
 
