@@ -46,17 +46,6 @@ Simulation::Simulation(World world) : world_(std::move(world)) { resize(); }
 
 void Simulation::resize() { size_workspace(world_, work_); }
 
-void Simulation::complete_state() {
-  bring_contacts_to_root(world_.ranks, world_.state);
-  bring_cells_to_root(world_.ranks, world_.state);
-}
-
-void Simulation::release_state() {
-  if (!world_.ranks.is_root()) return;
-  drop_contacts(world_.ranks, world_.state);
-  drop_cells(world_.ranks, world_.state);
-}
-
 void Simulation::complete_points() { coupling::complete_points(world_, work_); }
 
 void Simulation::refresh_points() { refresh_near_cells(world_, work_); }

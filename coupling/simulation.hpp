@@ -45,11 +45,6 @@ class Simulation {
   /// Sizes the workspace anew. Call it after cells were added, removed or changed from outside.
   void resize();
 
-  /// Brings to the root what it does not have of the state, before the state is read from outside.
-  /// Collective.
-  void complete_state();
-  /// Returns the memory of what complete_state() brought.
-  void release_state();
   /// Gives every process the points of all cells, before they are measured. Collective.
   void complete_points();
   /// Brings the points of the cells near own ones, and returns the memory of others: all processes

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <span>
 
 #include "core/error.hpp"
@@ -71,6 +72,29 @@ void write_value(File& file, const std::string& name, const CheckpointData::Valu
       value);
 }
 
+/// Writes an array part by part.
+/// @param index  of its type among those of CheckpointData::Value
+/// @return       hash_of() of the whole
+template <class T>
+std::uint64_t write_parts(File& file, const std::string& name, const ArraySource<T>& source,
+                          std::size_t index) {
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> hash(XXH3_createState(),
+                                                                      XXH3_freeState);
+  XXH3_64bits_reset_withSeed(hash.get(), index);
+  file.create_array<T>(name, source.size);
+  std::size_t done = 0;
+  source.visit([&](std::span<const T> part) {
+    check(part.size() <= source.size - done,
+          "internal error: " + name + " has more values than told", Exit::kInternal);
+    file.write_rows(name, static_cast<std::int64_t>(done), part);
+    XXH3_64bits_update(hash.get(), part.data(), part.size_bytes());
+    done += part.size();
+  });
+  check(done == source.size, "internal error: " + name + " has fewer values than told",
+        Exit::kInternal);
+  return XXH3_64bits_digest(hash.get());
+}
+
 CheckpointData::Value read_value(const File& file, const std::string& name) {
   if (file.holds<double>(name)) return file.read_all<double>(name);
   if (file.holds<std::int64_t>(name)) return file.read_all<std::int64_t>(name);
@@ -81,7 +105,7 @@ CheckpointData::Value read_value(const File& file, const std::string& name) {
 
 /// Writes all arrays, with a list of their names in one dataset: reading then need not walk through
 /// groups.
-void write_file(const std::string& path, const CheckpointData& data) {
+void write_file(const std::string& path, const CheckpointSource& source) {
   File file = File::create(path, h5::Format::kChecked);
   const std::int64_t complete = 1;
   std::map<std::string, std::uint64_t> hash;
@@ -89,12 +113,20 @@ void write_file(const std::string& path, const CheckpointData& data) {
   file.write_attribute("/", "schema", "acinus/checkpoint");
   file.write_attribute("/", "schema_version", kCheckpointSchema);
   file.create_group(kRoot);
-  for (const auto& [name, value] : data.all()) {
-    const std::string dataset = kRoot + ("/" + name);
-    write_value(file, dataset, value);
+  const auto dataset_of = [](const std::string& name) { return kRoot + ("/" + name); };
+  for (const auto& [name, value] : source.whole.all()) {
+    write_value(file, dataset_of(name), value);
     hash[name] = hash_of(value);
-    file.write_hash(dataset, "xxh3", hash[name]);
-    file.write_attribute(dataset, "unit", "base units um s nN");
+  }
+  for (const auto& [name, parts] : source.parts())
+    hash[name] = std::visit(
+        [&](const auto& array) {
+          return write_parts(file, dataset_of(name), array, parts.index());
+        },
+        parts);
+  for (const auto& [name, value] : hash) {
+    file.write_hash(dataset_of(name), "xxh3", value);
+    file.write_attribute(dataset_of(name), "unit", "base units um s nN");
     names += name + "\n";
   }
   file.write_array<std::uint8_t>("/names", bytes_of(names));
@@ -256,21 +288,49 @@ std::int64_t CheckpointData::count(const std::string& name) const {
   return value[0];
 }
 
-void save_checkpoint(const std::string& folder, const CheckpointData& data) {
+void CheckpointSource::put(const std::string& name, Parts parts) {
+  const std::string fault = whole.fault_of_name(name);
+  check(fault.empty() && !parts_.contains(name),
+        "internal error: " + (fault.empty() ? name + " is there twice" : fault), Exit::kInternal);
+  parts_.emplace(name, std::move(parts));
+}
+
+void visit_parts(const CheckpointSource& source) {
+  for (const auto& [name, parts] : source.parts())
+    std::visit([](const auto& array) { array.visit([](const auto&) {}); }, parts);
+}
+
+CheckpointData collect(const CheckpointSource& source) {
+  CheckpointData data = source.whole;
+  for (const auto& [name, parts] : source.parts())
+    std::visit(
+        [&]<class T>(const ArraySource<T>& array) {
+          std::vector<T> values;
+          values.reserve(array.size);
+          array.visit([&](std::span<const T> part) {
+            values.insert(values.end(), part.begin(), part.end());
+          });
+          data.put(name, std::move(values));
+        },
+        parts);
+  return data;
+}
+
+void save_checkpoint(const std::string& folder, const CheckpointSource& source) {
   const std::string newest = folder + kNewest;
   const std::string partial = newest + ".tmp";
   const RemoveUnlessMoved cleanup{partial};
-  write_file(partial, data);
+  write_file(partial, source);
   sync_file(partial);
   if (std::filesystem::exists(newest)) link_as(newest, folder + kPrevious);
   replace_file(partial, newest);
   sync_folder(folder);
 }
 
-void save_state_file(const std::string& path, const CheckpointData& data) {
+void save_state_file(const std::string& path, const CheckpointSource& source) {
   const std::string partial = path + ".tmp";
   const RemoveUnlessMoved cleanup{partial};
-  write_file(partial, data);
+  write_file(partial, source);
   sync_file(partial);
   replace_file(partial, path);
 }

@@ -4,8 +4,11 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
+
+#include "io/array_source.hpp"
 
 namespace acinus::io {
 
@@ -53,10 +56,34 @@ class CheckpointData {
   std::string source_ = "checkpoint";
 };
 
+/// Content of a checkpoint that is to be written: whole arrays, and arrays that are made part by
+/// part while they are written.
+class CheckpointSource {
+ public:
+  using Parts = std::variant<ArraySource<double>, ArraySource<std::int64_t>>;
+
+  CheckpointData whole;
+
+  explicit CheckpointSource(CheckpointData data = {}) : whole(std::move(data)) {}
+  /// Adds an array. Names are those of CheckpointData.
+  void put(const std::string& name, Parts parts);
+
+  const std::map<std::string, Parts>& parts() const { return parts_; }
+
+ private:
+  std::map<std::string, Parts> parts_;
+};
+
+/// Makes all parts and drops them: for processes that take part in making what the root writes.
+void visit_parts(const CheckpointSource& source);
+
+/// Data with all arrays of a source.
+CheckpointData collect(const CheckpointSource& source);
+
 /// Writes folder/checkpoint.h5 and keeps the previous one as checkpoint.prev.h5. At every moment,
 /// even if the program is killed or the disk is full, one of the two is complete. Errors:
 /// Error(kFileError); the older files are untouched.
-void save_checkpoint(const std::string& folder, const CheckpointData& data);
+void save_checkpoint(const std::string& folder, const CheckpointSource& source);
 
 struct LoadedCheckpoint {
   CheckpointData data;
@@ -68,9 +95,9 @@ struct LoadedCheckpoint {
 /// newest has a newer major version of the format (the older one is then not read silently).
 LoadedCheckpoint load_checkpoint(const std::string& folder);
 
-/// Writes the data as one file of any name, which appears whole or not at all; no previous file is
-/// kept. Errors: Error(kFileError).
-void save_state_file(const std::string& path, const CheckpointData& data);
+/// Writes one file of any name, which appears whole or not at all; no previous file is kept.
+/// Errors: Error(kFileError).
+void save_state_file(const std::string& path, const CheckpointSource& source);
 CheckpointData load_state_file(const std::string& path);
 
 /// True if the folder has a checkpoint, usable or not.

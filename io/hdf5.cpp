@@ -245,8 +245,10 @@ void File::write_raw(const std::string& name, hid_t type, std::int64_t first_row
   const hsize_t start[2] = {static_cast<hsize_t>(first_row), 0};
   const hsize_t count[2] = {n, per_row};
   Handle dataset = open_dataset(name);
-  dims[0] = std::max(dims[0], start[0] + n);
-  if (H5Dset_extent(dataset.id(), dims.data()) < 0) fail_here("grow dataset " + name);
+  if (start[0] + n > dims[0]) {
+    dims[0] = start[0] + n;
+    if (H5Dset_extent(dataset.id(), dims.data()) < 0) fail_here("grow dataset " + name);
+  }
   const Handle file_space(H5Dget_space(dataset.id()), H5Sclose);
   const Handle memory_space(H5Screate_simple(static_cast<int>(dims.size()), count, nullptr),
                             H5Sclose);
@@ -365,19 +367,15 @@ std::vector<std::string> File::read_text_rows(const std::string& name, std::int6
 }
 
 template <class T>
-void File::write_array(const std::string& name, std::span<const T> value) {
-  const hsize_t n = value.size();
-  const Handle space(H5Screate_simple(1, &n, nullptr), H5Sclose);
+void File::create_array(const std::string& name, std::size_t n) {
+  const hsize_t extent = n;
+  const Handle space(H5Screate_simple(1, &extent, nullptr), H5Sclose);
   const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(links.id(), 1);
   const Handle dataset(H5Dcreate2(id(), name.c_str(), stored_type<T>(), space.id(), links.id(),
                                   H5P_DEFAULT, H5P_DEFAULT),
                        H5Dclose);
   if (!dataset.valid()) fail_here("create dataset " + name);
-  if (n > 0 &&
-      H5Dwrite(dataset.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.data()) < 0) {
-    fail_here("write dataset " + name);
-  }
 }
 
 #define ACINUS_H5_INSTANTIATE(T)                                                             \
@@ -385,7 +383,7 @@ void File::write_array(const std::string& name, std::span<const T> value) {
   template void File::write_rows<T>(const std::string&, std::int64_t, std::span<const T>);   \
   template std::vector<T> File::read_rows<T>(const std::string&, std::int64_t, std::int64_t) \
       const;                                                                                 \
-  template void File::write_array<T>(const std::string&, std::span<const T>);                \
+  template void File::create_array<T>(const std::string&, std::size_t);                      \
   template bool File::holds<T>(const std::string&) const;
 ACINUS_H5_INSTANTIATE(float)
 ACINUS_H5_INSTANTIATE(double)

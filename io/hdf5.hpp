@@ -97,9 +97,15 @@ class File {
   void write_text(const std::string& name, std::string_view text);
   std::string read_text(const std::string& name) const;
 
-  /// Writes a contiguous one-dimensional dataset once (checkpoints).
+  /// Creates a contiguous one-dimensional dataset of n values (checkpoints), and the groups above.
   template <class T>
-  void write_array(const std::string& name, std::span<const T> value);
+  void create_array(const std::string& name, std::size_t n);
+  /// Creates such a dataset and writes all of it.
+  template <class T>
+  void write_array(const std::string& name, std::span<const T> value) {
+    create_array<T>(name, value.size());
+    write_rows(name, 0, value);
+  }
 
   /// Writes an attribute: 64-bit numbers, or fixed-length ASCII text; an existing one is replaced.
   void write_attribute(const std::string& object, const std::string& name,

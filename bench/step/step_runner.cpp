@@ -9,6 +9,7 @@
 #include "core/parallel/clock.hpp"
 #include "coupling/step/controller.hpp"
 #include "coupling/step/workspace_size.hpp"
+#include "coupling/world/state_parts.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/read_scene.hpp"
 
@@ -55,7 +56,7 @@ StepSample StepRunner::measure() {
           work_.timings.stages(),
           world_.state.clock.cg_iterations - first_.cg_iterations,
           world_.state.clock.solves - first_.solves,
-          coupling::hash_state(world_.state)};
+          coupling::hash_state(world_.ranks, world_.state)};
 }
 
 StepSample StepRunner::measure_median() {

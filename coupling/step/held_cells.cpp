@@ -138,20 +138,14 @@ void forget_shape(State& s, std::size_t lane) {
   b.edge = b.triangle = b.link = SharedNumbers();
 }
 
-enum class Where { kRoot, kEverywhere };
-
-/// Gathers these cells at the root or on every process.
-void gather_cells(const Ranks& ranks, Where where, std::span<const std::size_t> lanes,
-                  const CellParts& parts, State& s) {
+/// Gathers these cells on every process.
+void gather_cells(const Ranks& ranks, std::span<const std::size_t> lanes, const CellParts& parts,
+                  State& s) {
   std::vector<double> own, all;
   std::vector<std::size_t> start;
   for (const std::size_t lane : lanes)
     if (s.cell_holder[lane] == ranks.rank()) pack(s, lane, parts, own);
-  if (where == Where::kEverywhere)
-    ranks.gather<double>(own, all, &start);
-  else
-    ranks.gather_at_root<double>(own, all, &start);
-  if (all.empty()) return;
+  ranks.gather<double>(own, all, &start);
   std::vector<const double*> next;
   for (const std::size_t first : start) next.push_back(all.data() + first);
   for (const std::size_t lane : lanes) {
@@ -235,7 +229,7 @@ void hand_over_cells(World& world, const Workspace& w) {
 namespace {
 
 /// Gathers all cells, a part at a time.
-void gather_all(const Ranks& ranks, Where where, const CellParts& parts, State& s) {
+void gather_all(const Ranks& ranks, const CellParts& parts, State& s) {
   constexpr std::size_t kMostPoints = 100'000;  // at a time: some 6 MB
   std::vector<std::size_t> lanes;
   std::size_t n = 0;
@@ -243,7 +237,7 @@ void gather_all(const Ranks& ranks, Where where, const CellParts& parts, State& 
     lanes.push_back(lane);
     n += static_cast<std::size_t>(points_of(s, lane));
     if (n < kMostPoints && lane + 1 < s.cell_holder.size()) continue;
-    gather_cells(ranks, where, lanes, parts, s);
+    gather_cells(ranks, lanes, parts, s);
     lanes.clear();
     n = 0;
   }
@@ -253,7 +247,7 @@ void gather_all(const Ranks& ranks, Where where, const CellParts& parts, State& 
 
 void complete_near(const Ranks& ranks, State& s) {
   if (s.near_set == 0) return;
-  gather_all(ranks, Where::kEverywhere, {.near = true}, s);
+  gather_all(ranks, {.near = true}, s);
   s.near_set = 0;
   s.near.clear();
 }
@@ -295,30 +289,14 @@ void drop_far(const Ranks& ranks, State& s, bool poison) {
 }
 
 void complete_cells(const Ranks& ranks, State& s) {
-  gather_all(ranks, Where::kEverywhere, all_parts(s), s);
+  gather_all(ranks, all_parts(s), s);
   s.cell_holder.clear();
   s.near_set = 0;
   s.near.clear();
 }
 
-void bring_cells_to_root(const Ranks& ranks, State& s) {
-  gather_all(ranks, Where::kRoot, all_parts(s), s);
-}
-
-void drop_cells(const Ranks& ranks, State& s) {
-  if (s.cell_holder.empty()) return;
-  RowVector<double> own = make_zeros<double>(s.last_move.size());
-  for (std::size_t lane = 0; lane < s.cell_holder.size(); ++lane)
-    if (s.cell_holder[lane] != ranks.rank() && s.cell_holder[lane] != kEverywhere)
-      forget_shape(s, lane);
-    else if (has_moves(s))
-      for_each_number_of(s, lane, [&](std::size_t k) { own[k] = s.last_move[k]; });
-  s.last_move = std::move(own);
-  if (s.near_set != 0) drop_far(ranks, s, false);
-}
-
 void bring_points(const Ranks& ranks, std::span<const std::size_t> lanes, State& s) {
-  if (s.near_set != 0) gather_cells(ranks, Where::kEverywhere, lanes, {.near = true}, s);
+  if (s.near_set != 0) gather_cells(ranks, lanes, {.near = true}, s);
 }
 
 void forget_near(State& s) {
@@ -327,7 +305,7 @@ void forget_near(State& s) {
 }
 
 void complete_shapes(const Ranks& ranks, std::span<const std::size_t> lanes, State& s) {
-  if (!s.cell_holder.empty()) gather_cells(ranks, Where::kEverywhere, lanes, {.shapes = true}, s);
+  if (!s.cell_holder.empty()) gather_cells(ranks, lanes, {.shapes = true}, s);
 }
 
 }  // namespace acinus::coupling

@@ -9,38 +9,11 @@
 #include <vector>
 
 #include "core/parallel/threads.hpp"
+#include "coupling/world/state_parts.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
-
-/// Points of a lane; lanes count [dcm lanes, then those of the rows of spheres].
-inline int points_of(const State& s, std::size_t lane) {
-  return lane < s.dcm.n_lane() ? s.dcm.group[lane / kLanes].n_point() : 1;
-}
-
-/// Address of the first point of a lane among all unknowns.
-inline Address first_point_of(const State& s, std::size_t lane) {
-  return lane < s.dcm.n_lane() ? dcm::node_address(s.dcm, lane, 0)
-                               : cbm::cell_address(s.dcm.n_row(), lane - s.dcm.n_lane());
-}
-
-/// Calls f(k) for the indices k of a lane's numbers in vectors [n_row][3][lane].
-template <class F>
-void for_each_number_of(const State& s, std::size_t lane, const F& f) {
-  const auto first = static_cast<std::size_t>(first_point_of(s, lane));
-  const auto n = static_cast<std::size_t>(points_of(s, lane));
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t m = 0; m < 3; ++m) f(first + i * kPointStride + m * kLanes);
-}
-
-/// Number k of the points of a state, as for_each_number_of counts.
-inline double& number_of(State& s, std::size_t k) {
-  return *position_of(s, static_cast<Address>(k));
-}
-inline double number_of(const State& s, std::size_t k) {
-  return *position_of(s, static_cast<Address>(k));
-}
 
 /// Completes a plan in which each process knows the runs that it sends: gets the lengths of those
 /// that it receives, and places them one after the other. Both ends list each other.
@@ -70,11 +43,6 @@ void drop_far(const Ranks& ranks, State& state, bool poison);
 
 /// Gathers all cells on every process: before they are read as a whole. Collective.
 void complete_cells(const Ranks& ranks, State& state);
-
-/// Gathers all cells at the root, before a state is written; holders stay. Collective.
-void bring_cells_to_root(const Ranks& ranks, State& state);
-/// Returns the memory of what other processes hold.
-void drop_cells(const Ranks& ranks, State& state);
 
 /// True if this process has the points of a cell in a state whose near cells are not known.
 inline bool holds_points(const Ranks& ranks, const State& s, std::size_t lane) {

@@ -89,15 +89,4 @@ void complete_contacts(const Ranks& ranks, State& s) {
   s.holder.clear();
 }
 
-void bring_contacts_to_root(const Ranks& ranks, State& s) {
-  if (s.holder.empty()) return;
-  std::vector<Sent> all;
-  ranks.gather_at_root<Sent>(list_held(ranks, s), all, nullptr);
-  add_pairs(all, s.cbm.touching);
-}
-
-void drop_contacts(const Ranks& ranks, State& s) {
-  if (!s.holder.empty()) keep_own(ranks, s.holder, s.cbm.touching);
-}
-
 }  // namespace acinus::coupling

@@ -16,10 +16,4 @@ void hand_over_contacts(const Ranks& ranks, const Workspace& work, State& state)
 /// Collective.
 void complete_contacts(const Ranks& ranks, State& state);
 
-/// Gathers the contacts of all spheres at the root, before a state is written; holders stay.
-/// Collective.
-void bring_contacts_to_root(const Ranks& ranks, State& state);
-/// Removes the contacts that other processes hold.
-void drop_contacts(const Ranks& ranks, State& state);
-
 }  // namespace acinus::coupling

@@ -1,7 +1,6 @@
 #include "coupling/world/world.hpp"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <algorithm>
 
@@ -76,69 +75,6 @@ const double* position_of(const State& s, Address point) {
 
 double* position_of(State& s, Address point) {
   return const_cast<double*>(position_of(std::as_const(s), point));
-}
-
-std::uint64_t hash_state(const State& s) {
-  XXH64_state_t* hash = XXH64_createState();
-  XXH64_reset(hash, 0);
-  auto add = [&](const auto& v) {
-    if (!v.empty()) XXH64_update(hash, v.data(), v.size() * sizeof(v[0]));
-  };
-  add(s.dcm.position);
-  add(s.cbm.position);
-  for (const Vec3& x : s.tree.node) add(std::array{x.x(), x.y(), x.z()});
-  for (const Eigen::Quaterniond& q : s.tree.rotation) add(std::array{q.w(), q.x(), q.y(), q.z()});
-  add(s.dcm.lineage);
-  add(s.cbm.lineage);
-  for (const double young : s.cbm.young) add(std::array{young});
-  const auto add_ramps = [&](const auto& v) {
-    for (const Ramp& r : v) add(std::array{r.from, r.to, r.start, r.end});
-  };
-  add_ramps(s.dcm.volume);
-  add_ramps(s.cbm.volume);
-  add_ramps(s.cbm.strength);
-  for (const auto& [a, b] : s.cbm.touching) add(std::array{a, b});
-  add(s.last_move);
-  add(s.leader);
-  add(s.asleep);
-  add(s.model_since);
-  for (const FadingForce& f : s.fading) {
-    add(std::array{f.a, f.b});
-    add(std::array{f.force.x(), f.force.y(), f.force.z(), f.virial, f.share.start, f.share.end});
-    add(std::array{f.apart.x(), f.apart.y(), f.apart.z(), f.reach});
-  }
-  for (const Cycle& c : s.cycle)
-    add(std::array{c.birth, c.birth_volume, c.duration, c.wait_until, static_cast<double>(c.parent),
-                   static_cast<double>(c.founder), static_cast<double>(c.fate)});
-  for (const dcm::BirthShape& b : s.dcm.birth) {
-    add(b.edge);
-    add(b.triangle);
-    add(b.link);
-    if (!b.edge.empty()) add(std::array{b.area, b.weight.start, b.weight.end});
-  }
-  for (const dcm::EdgeTension& t : s.dcm.tension) {
-    add(t.force);
-    add(t.length);
-  }
-  add(std::array{s.clock.time, s.clock.origin, s.clock.step, s.clock.last_step});
-  add(std::array{static_cast<std::int64_t>(s.clock.phase), s.clock.accepted,
-                 static_cast<std::int64_t>(s.clock.coarse ? 1 : 0), s.leader_interval,
-                 s.sleep_interval, s.life_interval, s.next_lineage, s.divisions, s.deaths});
-  for (const SubstanceState& field : s.substance) {
-    add(field.concentration);
-    if (!field.open.empty()) add(field.open);
-    if (const InsideState& inside = field.inside; !inside.cell.empty()) {
-      add(inside.cell);
-      add(inside.voxel);
-      add(inside.volume);
-      add(inside.concentration);
-    }
-    add(std::array{field.secreted, field.entered, field.supplied, field.decayed});
-    if (field.layers != substances::Layers{}) add(field.layers);
-  }
-  const std::uint64_t value = XXH64_digest(hash);
-  XXH64_freeState(hash);
-  return value;
 }
 
 std::string name_body(const State& s, std::size_t lane) {

@@ -244,7 +244,8 @@ void gather_positions(const State& state, RowVector<double>& out);
 double* position_of(State& state, Address point);
 const double* position_of(const State& state, Address point);
 
-/// Hash of the whole state in storage order; equal bits give equal hashes.
+/// Hash of the whole state in storage order; equal bits give equal hashes. Of a state with holders:
+/// state_parts.hpp.
 std::uint64_t hash_state(const State& state);
 
 /// Name for messages: "DCM cell 12" of a lane, "CBM cell 40" of a sphere.

@@ -4,6 +4,7 @@
 
 #include "acinus_version.hpp"
 #include "core/error.hpp"
+#include "coupling/world/state_parts.hpp"
 #include "io/checkpoint.hpp"
 #include "runs/assemble/state_file.hpp"
 #include "runs/scene/differences.hpp"
@@ -28,14 +29,18 @@ bool may_differ_at_start(const Scene& scene, const std::string& pointer) {
   return key->affects >= Affects::kStep;
 }
 
-void save_start(const std::string& folder, const Scene& scene, const coupling::State& state) {
-  io::CheckpointData data;
-  data.put("scene", scene.resolved_json);
-  data.put("scene_hash", scene.hash);
-  data.put("version", ACINUS_VERSION);
-  data.put("state_hash", fmt::format("{:016x}", coupling::hash_state(state)));
-  put_state(state, data);
-  io::save_state_file(folder + "/start.h5", data);
+void save_start(const std::string& folder, const Scene& scene, const coupling::World& world) {
+  io::CheckpointSource source;
+  source.whole.put("scene", scene.resolved_json);
+  source.whole.put("scene_hash", scene.hash);
+  source.whole.put("version", ACINUS_VERSION);
+  source.whole.put("state_hash",
+                   fmt::format("{:016x}", coupling::hash_state(world.ranks, world.state)));
+  put_state(world.ranks, world.state, source);
+  if (world.ranks.is_root())
+    io::save_state_file(folder + "/start.h5", source);
+  else
+    io::visit_parts(source);
 }
 
 std::string take_start(const Scene& scene, const StateTypes& types, coupling::State& state) {

@@ -11,7 +11,7 @@ namespace acinus::runs {
 
 /// Writes <folder>/start.h5. Called at t = 0, after start-up and before the life events begin.
 /// @throws Error(kFileError)
-void save_start(const std::string& folder, const Scene& scene, const coupling::State& state);
+void save_start(const std::string& folder, const Scene& scene, const coupling::World& world);
 
 /// Replaces cells and clock of a world by the state at t = 0 of the run in scene.start_up.from.
 /// Growth, motility, friction and output may differ from that run; keys that shape the start must

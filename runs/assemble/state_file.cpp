@@ -24,23 +24,6 @@ int as_int(const io::CheckpointData& d, const char* what, std::int64_t value) {
   return static_cast<int>(value);
 }
 
-/// Writes the birth shapes that are still remembered: lane, then weight, area, edges and triangles.
-void put_birth_shapes(const dcm::State& s, io::CheckpointData& d) {
-  std::vector<std::int64_t> lane;
-  std::vector<double> numbers;
-  for (std::size_t l = 0; l < s.n_lane(); ++l) {
-    const dcm::BirthShape& b = s.birth[l];
-    if (b.edge.empty()) continue;
-    lane.push_back(static_cast<std::int64_t>(l));
-    numbers.insert(numbers.end(),
-                   {b.weight.from, b.weight.to, b.weight.start, b.weight.end, b.area});
-    numbers.insert(numbers.end(), b.edge.begin(), b.edge.end());
-    numbers.insert(numbers.end(), b.triangle.begin(), b.triangle.end());
-  }
-  d.put("dcm/birth_lane", lane);
-  d.put("dcm/birth_shape", numbers);
-}
-
 void get_birth_shapes(const io::CheckpointData& d, dcm::State& s) {
   s.birth.assign(s.n_lane(), {});
   const std::vector<double>& numbers = d.numbers("dcm/birth_shape");
@@ -62,22 +45,6 @@ void get_birth_shapes(const io::CheckpointData& d, dcm::State& s) {
   }
 }
 
-/// Writes the cortex tensions of the cells that have any: lane, then forces and lengths of their
-/// edges.
-void put_tensions(const dcm::State& s, io::CheckpointData& d) {
-  std::vector<std::int64_t> lane;
-  std::vector<double> numbers;
-  for (std::size_t l = 0; l < s.n_lane(); ++l) {
-    const dcm::EdgeTension& t = s.tension[l];
-    if (t.is_new()) continue;
-    lane.push_back(static_cast<std::int64_t>(l));
-    numbers.insert(numbers.end(), t.force.begin(), t.force.end());
-    numbers.insert(numbers.end(), t.length.begin(), t.length.end());
-  }
-  d.put("dcm/tension_lane", lane);
-  d.put("dcm/tension", numbers);
-}
-
 void get_tensions(const io::CheckpointData& d, dcm::State& s) {
   s.tension.assign(s.n_lane(), {});
   if (!d.contains("dcm/tension_lane")) return;  // written before there were any
@@ -92,21 +59,6 @@ void get_tensions(const io::CheckpointData& d, dcm::State& s) {
     s.tension[l].length.assign(at + n, at + 2 * n);
     at += 2 * n;
   }
-}
-
-/// Writes the nuclei by group: number of nodes (0: no nucleus) and size relative to the cell.
-void put_nuclei(const dcm::State& s, io::CheckpointData& d) {
-  if (!dcm::has_nuclei(s)) return;
-  std::vector<std::int64_t> nodes;
-  std::vector<double> size, link;
-  for (const dcm::Group& g : s.group) {
-    nodes.push_back(g.nucleus.n_node());
-    size.push_back(g.nucleus.size);
-  }
-  for (const dcm::BirthShape& b : s.birth) link.insert(link.end(), b.link.begin(), b.link.end());
-  d.put("dcm/nucleus_nodes", nodes);
-  d.put("dcm/nucleus_size", size);
-  d.put("dcm/birth_link", link);
 }
 
 dcm::NucleusMesh nucleus_of(const io::CheckpointData& d, std::size_t group) {
@@ -185,33 +137,6 @@ void get_spheres(const io::CheckpointData& d, cbm::State& s) {
         t[k + 1] < 0 ? ~as_int(d, "cbm/touching", ~t[k + 1]) : as_int(d, "cbm/touching", t[k + 1]));
 }
 
-void put_life(const coupling::State& s, io::CheckpointData& d) {
-  std::vector<std::int64_t> parent, founder, fate;
-  std::vector<double> birth, birth_volume, duration, wait_until;
-  for (const coupling::Cycle& c : s.cycle) {
-    parent.push_back(c.parent);
-    founder.push_back(c.founder);
-    fate.push_back(static_cast<std::int64_t>(c.fate));
-    birth.push_back(c.birth);
-    birth_volume.push_back(c.birth_volume);
-    duration.push_back(c.duration);
-    wait_until.push_back(c.wait_until);
-  }
-  d.put("life/parent", parent);
-  d.put("life/founder", founder);
-  d.put("life/fate", fate);
-  d.put("life/birth", birth);
-  d.put("life/birth_volume", birth_volume);
-  d.put("life/duration", duration);
-  d.put("life/wait_until", wait_until);
-  d.put_count("life/interval", s.life_interval);
-  d.put_count("life/next_lineage", s.next_lineage);
-  d.put_count("life/divisions", s.divisions);
-  d.put_count("life/deaths", s.deaths);
-  d.put("life/asleep", as_integers(s.asleep));
-  d.put_count("life/sleep_interval", s.sleep_interval);
-}
-
 void get_life(const io::CheckpointData& d, coupling::State& s) {
   const std::size_t n_cell = s.dcm.n_lane() + s.cbm.n_cell(), n = d.integers("life/parent").size();
   const auto integers = [&](const char* what) -> const std::vector<std::int64_t>& {
@@ -245,28 +170,6 @@ void get_life(const io::CheckpointData& d, coupling::State& s) {
   s.sleep_interval = d.count("life/sleep_interval");
 }
 
-void put_zoom(const coupling::State& s, io::CheckpointData& d) {
-  d.put("zoom/model_since", s.model_since);
-  std::vector<std::int64_t> cell;
-  std::vector<Vec3> force, apart;
-  std::vector<double> virial, reach;
-  std::vector<Ramp> share;
-  for (const coupling::FadingForce& f : s.fading) {
-    cell.insert(cell.end(), {f.a, f.b});
-    force.push_back(f.force);
-    virial.push_back(f.virial);
-    share.push_back(f.share);
-    apart.push_back(f.apart);
-    reach.push_back(f.reach);
-  }
-  d.put("zoom/fading/cell", cell);
-  d.put("zoom/fading/force", flatten(force));
-  d.put("zoom/fading/virial", virial);
-  d.put("zoom/fading/share", flatten(share));
-  d.put("zoom/fading/apart", flatten(apart));
-  d.put("zoom/fading/reach", reach);
-}
-
 void get_zoom(const io::CheckpointData& d, coupling::State& s) {
   if (!d.contains("zoom/model_since")) return;  // files of 0.1.0 have none
   s.model_since = d.numbers("zoom/model_since");
@@ -289,69 +192,7 @@ void get_zoom(const io::CheckpointData& d, coupling::State& s) {
         {cell[2 * k], cell[2 * k + 1], force[k], virial[k], share[k], apart[k], reach[k]});
 }
 
-/// Calls f(name, value) for every floating-point member of the clock and the force balance.
-template <class Clock, class Balance, class F>
-void visit_numbers(Clock& c, Balance& b, F f) {
-  f("clock/time", c.time);
-  f("clock/origin", c.origin);
-  f("clock/phase_start", c.phase_start);
-  f("clock/step", c.step);
-  f("clock/last_step", c.last_step);
-  f("balance/momentum", b.momentum);
-  f("balance/torque", b.torque);
-  f("balance/friction_torque", b.friction_torque);
-}
-
-/// Calls f(name, value) for every integer member of the clock.
-template <class Clock, class F>
-void visit_counts(Clock& c, F f) {
-  f("clock/accepted", c.accepted);
-  f("clock/rejected", c.rejected);
-  f("clock/cg_iterations", c.cg_iterations);
-  f("clock/solves", c.solves);
-}
-
 }  // namespace
-
-void put_state(const coupling::State& s, io::CheckpointData& d) {
-  std::vector<std::int64_t> group;
-  for (const dcm::Group& g : s.dcm.group)
-    group.insert(group.end(), {g.type, static_cast<std::int64_t>(g.topology->n_node)});
-  d.put("dcm/group", group);
-  d.put("dcm/position", std::vector<double>(s.dcm.position.begin(), s.dcm.position.end()));
-  d.put("dcm/lineage", s.dcm.lineage);
-  d.put("dcm/volume", flatten(s.dcm.volume));
-  put_birth_shapes(s.dcm, d);
-  put_nuclei(s.dcm, d);
-  put_tensions(s.dcm, d);
-  d.put("dcm/pull", flatten(s.dcm.pull));
-  d.put("cbm/position", std::vector<double>(s.cbm.position.begin(), s.cbm.position.end()));
-  d.put("cbm/lineage", s.cbm.lineage);
-  d.put("cbm/type", as_integers(s.cbm.type));
-  d.put("cbm/volume", flatten(s.cbm.volume));
-  d.put("cbm/strength", flatten(s.cbm.strength));
-  d.put("cbm/young", std::vector<double>(s.cbm.young.begin(), s.cbm.young.end()));
-  d.put("cbm/pull", flatten(s.cbm.pull));
-  std::vector<std::int64_t> touching;
-  for (const auto& [a, b] : s.cbm.touching) touching.insert(touching.end(), {a, b});
-  d.put("cbm/touching", touching);
-  put_tree(s.tree, d);
-  put_life(s, d);
-  put_zoom(s, d);
-  put_substances(s, d);
-  d.put_count("clock/phase", static_cast<std::int64_t>(s.clock.phase));
-  d.put_count("clock/coarse", s.clock.coarse ? 1 : 0);
-  d.put_count("clock/events_due", static_cast<std::int64_t>(s.clock.due));
-  visit_numbers(s.clock, s.balance,
-                [&](const char* name, double value) { d.put_number(name, value); });
-  visit_counts(s.clock, [&](const char* name, std::int64_t value) { d.put_count(name, value); });
-  d.put_count("clock/shortened", s.clock.shortened);
-  d.put("solver/last_move", std::vector<double>(s.last_move.begin(), s.last_move.end()));
-  d.put("leaders/cell", as_integers(s.leader));
-  d.put_count("leaders/interval", s.leader_interval);
-  d.put("settle/pressure", s.settle_pressure);
-  d.put_number("settle/time", s.settle_time);
-}
 
 void get_state(const io::CheckpointData& d, const StateTypes& types, coupling::State& s) {
   s.holder.clear();

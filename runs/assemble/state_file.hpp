@@ -7,8 +7,11 @@
 
 namespace acinus::runs {
 
-/// Writes the state as named arrays.
-void put_state(const coupling::State& state, io::CheckpointData& data);
+/// Adds the state as named arrays, which refer to it. Collective if cells have holders; making the
+/// parts is, too.
+void put_state(const Ranks& ranks, const coupling::State& state, io::CheckpointSource& source);
+/// State of one process as data.
+io::CheckpointData state_data(const coupling::State& state);
 
 /// Replaces the state of a world built from the same scene.
 /// @param types  cell types of that world

@@ -15,10 +15,6 @@
 
 namespace acinus::runs {
 
-template <class Values>
-std::vector<std::int64_t> as_integers(const Values& v) {
-  return {v.begin(), v.end()};
-}
 /// Numbers of ramps or points, one after the other.
 template <class Values>
 std::vector<double> flatten(const Values& values) {
@@ -41,6 +37,28 @@ inline std::vector<Vec3> unflatten_points(const std::vector<double>& v) {
   std::vector<Vec3> points;
   for (std::size_t k = 0; k + 2 < v.size(); k += 3) points.emplace_back(v[k], v[k + 1], v[k + 2]);
   return points;
+}
+
+/// Calls f(name, value) for every floating-point member of the clock and the force balance.
+template <class Clock, class Balance, class F>
+void visit_numbers(Clock& c, Balance& b, F f) {
+  f("clock/time", c.time);
+  f("clock/origin", c.origin);
+  f("clock/phase_start", c.phase_start);
+  f("clock/step", c.step);
+  f("clock/last_step", c.last_step);
+  f("balance/momentum", b.momentum);
+  f("balance/torque", b.torque);
+  f("balance/friction_torque", b.friction_torque);
+}
+
+/// Calls f(name, value) for every integer member of the clock.
+template <class Clock, class F>
+void visit_counts(Clock& c, F f) {
+  f("clock/accepted", c.accepted);
+  f("clock/rejected", c.rejected);
+  f("clock/cg_iterations", c.cg_iterations);
+  f("clock/solves", c.solves);
 }
 
 /// Checks the number of entries of an array.

@@ -42,7 +42,7 @@ std::string describe_inhibition(const coupling::Inhibition& p, const Measures& m
 }  // namespace
 
 std::vector<std::string> list_idle_rules(const Scene& scene, const Measures& measures,
-                                         const coupling::State& state, double time) {
+                                         const coupling::World& world, double time) {
   std::vector<std::string> list;
   const double slowest =
       extreme(measures, "slowest_growth", 1, [](auto a, auto b) { return std::min_element(a, b); });
@@ -51,10 +51,10 @@ std::vector<std::string> list_idle_rules(const Scene& scene, const Measures& mea
       if (type.cycle.inhibition.by != coupling::InhibitedBy::kNothing)
         list.push_back(fmt::format("cell_types.{}: {}", name,
                                    describe_inhibition(type.cycle.inhibition, measures, slowest)));
-  const bool dies =
-      state.deaths > 0 || std::ranges::any_of(state.cycle, [](const coupling::Cycle& c) {
-        return c.fate == coupling::Fate::kLyse;
-      });
+  const coupling::State& state = world.state;
+  const bool lyses = std::ranges::any_of(
+      state.cycle, [](const coupling::Cycle& c) { return c.fate == coupling::Fate::kLyse; });
+  const bool dies = world.ranks.any(state.deaths > 0 || lyses);
   const bool rests = largest(measures, "resting_cells") > 0;
   for (std::size_t k = 0; k < scene.life.rules.size(); ++k) {
     const bool die = scene.life.rules[k].die;

@@ -11,12 +11,14 @@
 #include "core/parallel/clock.hpp"
 #include "coupling/step/workspace_size.hpp"
 #include "coupling/substances/growing_box.hpp"
+#include "coupling/world/state_parts.hpp"
 #include "dcm/contact/contact_bodies.hpp"
 #include "runs/assemble/build_substances.hpp"
 #include "runs/assemble/state_file.hpp"
 #include "runs/assemble/substance_file.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/skipped.hpp"
+#include "runs/session/sphere_overlaps.hpp"
 #include "runs/session/summary.hpp"
 
 namespace acinus::runs {
@@ -192,10 +194,12 @@ void Recorder::add_life(const coupling::LifeReport& report) {
   for (const coupling::LifeEvent& e : report.events) add_event(name_of(e.kind), e.message, e.cells);
 }
 
-io::CheckpointData Recorder::make_checkpoint() {
-  io::CheckpointData data;
+io::CheckpointSource Recorder::make_checkpoint() {
+  io::CheckpointSource source;
+  put_state(ranks(), simulation_.world().state, source);
+  if (!file_) return source;
+  io::CheckpointData& data = source.whole;
   data.put("scene", scene_.resolved_json);
-  put_state(simulation_.world().state, data);
   totals_.wall_s = wall_s();
   totals_.cpu_s = cpu_before_ + cpu_seconds() - started_cpu_;
   put_totals(totals_, data);
@@ -207,24 +211,23 @@ io::CheckpointData Recorder::make_checkpoint() {
   if (fields_) data.put("file/field_times", fields_->times());
   const io::RunFileCounts counts = file_->counts();
   visit(counts, [&](const char* name, std::int64_t n) { data.put_count(name, n); });
-  return data;
+  return source;
 }
 
 void Recorder::save() {
-  write_checkpoint();
-  simulation_.release_state();
-}
-
-void Recorder::write_checkpoint() {
-  simulation_.complete_state();
-  if (!file_) return;
   const auto scope = simulation_.work().timings.scope("checkpoints");
-  file_->flush();
-  io::save_checkpoint(options_.out, make_checkpoint());
+  if (file_) file_->flush();
+  const io::CheckpointSource source = make_checkpoint();
+  if (file_)
+    io::save_checkpoint(options_.out, source);
+  else
+    io::visit_parts(source);
 }
 
 void Recorder::close(RunOutcome status, const std::string& cause) {
-  write_checkpoint();
+  save();
+  const std::uint64_t hash = coupling::hash_state(ranks(), simulation_.world().state);
+  const double largest = largest_sphere(simulation_.world());
   if (!file_) return;
   file_->set_provenance("end", now_text());
   file_->set_provenance("status", name_of_choice(status));
@@ -235,7 +238,7 @@ void Recorder::close(RunOutcome status, const std::string& cause) {
   for (const std::string& what : list_skipped_work(world, work)) skipped.push_back(what);
   write_summary(options_.out,
                 {scene_, options_, world, totals_, life_, observed_.measures, attempts(),
-                 work.timings, skipped, notes_, status, cause, options_.threads});
+                 work.timings, skipped, notes_, status, cause, hash, largest, options_.threads});
 }
 
 }  // namespace acinus::runs

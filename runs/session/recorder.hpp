@@ -73,18 +73,16 @@ class Recorder {
   Attempts attempts() const { return add_attempt(before_, simulation_.work().timings); }
   int start_cells() const { return static_cast<int>(life_.start_cells); }
   const Measures& measures() const { return observed_.measures; }
-  /// Rules of life that never acted so far.
+  /// Rules of life that never acted so far. Collective.
   std::vector<std::string> idle_rules() const {
-    return list_idle_rules(scene_, observed_.measures, simulation_.world().state,
-                           simulation_.time());
+    return list_idle_rules(scene_, observed_.measures, simulation_.world(), simulation_.time());
   }
 
  private:
-  void write_checkpoint();  ///< the same; the root keeps the whole state
   const Ranks& ranks() const { return simulation_.world().ranks; }
   std::string run_file() const { return options_.out + "/run.vtkhdf"; }
   io::RunFileOptions file_options() const;
-  io::CheckpointData make_checkpoint();
+  io::CheckpointSource make_checkpoint();
   void write_fields(double time);
 
   const Scene& scene_;

@@ -48,7 +48,7 @@ std::string deepest_partner(const RunTotals& t) {
 /// Verdicts on the overlaps of spheres with each other and with vessels.
 void add_sphere_verdicts(const coupling::World& world, const RunTotals& totals,
                          std::vector<std::string>& lines) {
-  const double radius = largest_sphere(world.state), depth = totals.max_overlap_cbm_um;
+  const double radius = largest_sphere(world), depth = totals.max_overlap_cbm_um;
   if (radius <= 0) return;
   if (world.state.divisions > 0)
     lines.push_back(

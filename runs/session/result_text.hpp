@@ -21,7 +21,7 @@ std::string describe_cells(int deformable, int spheres);
 std::vector<std::string> describe_pressures(const Measures& measures);
 
 /// Cells at the end, and the deepest overlap of each model with a verdict.
-/// Overlaps of spheres that falsify loads get a line of advice.
+/// Overlaps of spheres that falsify loads get a line of advice. Collective.
 /// @param start_cells  number of cells at t = 0
 std::vector<std::string> describe_result(const coupling::World& world, const RunTotals& totals,
                                          int start_cells);

@@ -210,18 +210,12 @@ coupling::Observer SceneRun::observer() {
                 progress_.step(world());
               },
           .phase = [this](const std::string& what) { end_phase(what); },
-          .start =
-              [this] {
-                simulation_.complete_state();
-                if (world().ranks.is_root()) save_start(options_.out, scene_, world().state);
-                simulation_.release_state();
-              },
+          .start = [this] { save_start(options_.out, scene_, world()); },
           .life = [this](const coupling::LifeReport& report) { recorder_.add_life(report); },
           .events_over = [this] { return events_over(); }};
 }
 
 void SceneRun::close(RunOutcome status, const std::string& cause) {
-  simulation_.complete_state();  // before idle rules and results are listed
   if (const auto& spheres = simulation_.work().cbm; spheres.beyond > 0) {
     note(fmt::format(
         "the stiffness of spheres was evaluated beyond the range of its law in {:.2g} % of cases",

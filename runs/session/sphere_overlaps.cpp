@@ -6,14 +6,15 @@
 
 namespace acinus::runs {
 
-double largest_sphere(const coupling::State& state) {
+double largest_sphere(const coupling::World& world) {
+  const coupling::State& s = world.state;
   double radius = 0;
-  for (const double r : cbm::radii_at(state.cbm, state.clock.time)) radius = std::max(radius, r);
-  return radius;
+  for (const double r : cbm::radii_at(s.cbm, s.clock.time)) radius = std::max(radius, r);
+  return world.ranks.max(radius);
 }
 
 std::string advise_sphere_overlaps(const coupling::World& world, const RunTotals& totals) {
-  const double radius = largest_sphere(world.state);
+  const double radius = largest_sphere(world);
   if (radius == 0) return "";
   // Sister cells overlap by more at birth.
   const bool deep =

@@ -16,10 +16,10 @@ namespace acinus::runs {
 /// shipped scene lobule_dcm (0.50 and 0.38 radii).
 inline constexpr double kSphereOverlap = 0.5, kVesselOverlap = 0.4;
 
-/// Radius of the largest sphere at present, um; 0 without spheres.
-double largest_sphere(const coupling::State& state);
+/// Radius of the largest sphere at present, um; 0 without spheres. Collective.
+double largest_sphere(const coupling::World& world);
 
-/// Consequence of overlaps beyond these limits, with advice; empty if there are none.
+/// Consequence of overlaps beyond these limits, with advice; empty if there are none. Collective.
 std::string advise_sphere_overlaps(const coupling::World& world, const RunTotals& totals);
 
 }  // namespace acinus::runs

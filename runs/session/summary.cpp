@@ -90,7 +90,7 @@ void add_errors(const SummaryInput& in, OrderedJson& j) {
   j["balance"] = {{"momentum", finite_number(s.balance.momentum)},
                   {"torque", finite_number(s.balance.torque)},
                   {"friction_torque", finite_number(s.balance.friction_torque)}};
-  j["state_hash"] = fmt::format("{:016x}", coupling::hash_state(s));
+  j["state_hash"] = fmt::format("{:016x}", in.state_hash);
   j["max_penetration_um"] = finite_number(t.max_penetration_um);
   if (s.divisions > 0) j["max_penetration_grown_um"] = finite_number(t.max_penetration_grown_um);
   j["penetration_um"] = {{"dcm_dcm", finite_number(t.dcm_dcm_um)},
@@ -99,7 +99,7 @@ void add_errors(const SummaryInput& in, OrderedJson& j) {
                          {"dcm_cbm_beyond_indentation", finite_number(t.dcm_cbm_beyond_um)}};
   j["overlap_of_spheres_um"] = {{"cbm_vessel", finite_number(t.cbm_vessel_um)},
                                 {"cbm_wall", finite_number(t.cbm_wall_um)},
-                                {"radius", finite_number(largest_sphere(s))}};
+                                {"radius", finite_number(in.largest_sphere_um)}};
   j["max_overlap_dcm_cbm_um"] = finite_number(t.dcm_cbm_um);
   j["max_overlap_cbm_um"] = finite_number(t.max_overlap_cbm_um);
   j["min_triangle_quality"] = finite_number(t.min_triangle_quality);

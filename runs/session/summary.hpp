@@ -1,6 +1,7 @@
 #pragma once
 /// summary.json: the figures of a run that scripts rely on.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,9 @@ struct SummaryInput {
   const std::vector<std::string>& skipped;
   const Notes& notes;
   RunOutcome status;
-  std::string cause;  ///< cause of a stop or failure
+  std::string cause;         ///< cause of a stop or failure
+  std::uint64_t state_hash;  ///< of coupling::hash_state(), at the end
+  double largest_sphere_um;  ///< radius of the largest sphere at the end; 0 without spheres
   int threads = 1;
 };
 

@@ -84,6 +84,10 @@ TEST(HeldCells, AreWithTheOwnersOfTheirCells) {
     expect_own_cells(world, w, all);
     const State copy = world.state;
     EXPECT_EQ(copy.last_move, world.state.last_move);
+    const std::uint64_t hash = hash_state(world.ranks, world.state);
+    if (world.ranks.is_root()) {
+      EXPECT_EQ(hash, hash_state(all));
+    }
   }
   complete_cells(world.ranks, world.state);
   EXPECT_EQ(hash_state(world.state), hash_state(all));

@@ -165,7 +165,7 @@ void read_checkpoint(const std::string& path) {
   must(io::load_state_file(path).all() == make_state().all(), "a state that nobody wrote");
 }
 void write_checkpoints(const std::string& folder) {
-  io::save_state_file(folder + "/state.h5", make_state());
+  io::save_state_file(folder + "/state.h5", io::CheckpointSource(make_state()));
 }
 
 void read_run_file(const std::string& path) {

@@ -33,6 +33,18 @@ CheckpointData make_data(double x) {
   return data;
 }
 
+CheckpointSource make_source(double x) { return CheckpointSource(make_data(x)); }
+
+/// Array that is handed over in parts of two values.
+/// @param size  given as its size
+template <class T>
+ArraySource<T> in_pairs(std::vector<T> values, std::size_t size) {
+  return {size, [values](const TakePart<T>& take) {
+            for (std::size_t k = 0; k < values.size(); k += 2)
+              take(std::span(values).subspan(k, std::min<std::size_t>(2, values.size() - k)));
+          }};
+}
+
 std::vector<std::uint64_t> bits_of(const std::vector<double>& value) {
   std::vector<std::uint64_t> bits;
   for (const double v : value) bits.push_back(std::bit_cast<std::uint64_t>(v));
@@ -42,7 +54,7 @@ std::vector<std::uint64_t> bits_of(const std::vector<double>& value) {
 TEST(Checkpoint, RoundTripKeepsEveryBit) {
   const Folder folder("checkpoint_bits");
   const CheckpointData data = make_data(3.5);
-  save_checkpoint(folder.path, data);
+  save_checkpoint(folder.path, CheckpointSource(data));
   const LoadedCheckpoint loaded = load_checkpoint(folder.path);
   EXPECT_EQ(loaded.warning, "");
   EXPECT_EQ(loaded.file, folder / "checkpoint.h5");
@@ -55,6 +67,39 @@ TEST(Checkpoint, RoundTripKeepsEveryBit) {
   EXPECT_EQ(loaded.data.text("nothing"), "");
   EXPECT_EQ(loaded.data.number("time"), 3.5);
   EXPECT_EQ(loaded.data.count("step"), 12);
+}
+
+TEST(Checkpoint, ArraysInPartsAreThoseOfTheWhole) {
+  const Folder folder("checkpoint_parts");
+  CheckpointData whole = make_data(3.5);
+  CheckpointSource parts(whole);
+  const std::vector<double> numbers{1, 2, 0.1, 4, 5};
+  const std::vector<std::int64_t> counts{7, -8, 9};
+  whole.put("numbers/many", numbers);
+  whole.put("numbers/none", std::vector<double>{});
+  whole.put("counts", counts);
+  parts.put("numbers/many", in_pairs(numbers, 5));
+  parts.put("numbers/none", in_pairs<double>({}, 0));
+  parts.put("counts", in_pairs(counts, 3));
+  save_state_file(folder / "parts.h5", parts);
+  const CheckpointData loaded = load_state_file(folder / "parts.h5"), made = collect(parts);
+  for (const CheckpointData* data : {&loaded, &made}) {
+    EXPECT_EQ(data->all().size(), whole.all().size());
+    EXPECT_EQ(data->numbers("numbers/many"), numbers);
+    EXPECT_TRUE(data->numbers("numbers/none").empty());
+    EXPECT_EQ(data->integers("counts"), counts);
+  }
+}
+
+TEST(Checkpoint, ArraysInPartsHaveTheirSize) {
+  const Folder folder("checkpoint_size");
+  save_checkpoint(folder.path, make_source(1));
+  for (const std::size_t size : {2, 4}) {
+    CheckpointSource source(make_data(2));
+    source.put("numbers", in_pairs<double>({1, 2, 3}, size));
+    EXPECT_THROW(save_checkpoint(folder.path, source), Error);
+  }
+  EXPECT_EQ(load_checkpoint(folder.path).data.number("time"), 1);
 }
 
 TEST(Checkpoint, NeverInventsAValue) {
@@ -79,7 +124,7 @@ TEST(Checkpoint, KeepsTheOneBefore) {
   const Folder folder("checkpoint_prev");
   EXPECT_FALSE(has_checkpoint(folder.path));
   acinus::test::message_of([&] { load_checkpoint(folder.path); }, Exit::kFileError);
-  for (const double x : {1.0, 2.0, 3.0}) save_checkpoint(folder.path, make_data(x));
+  for (const double x : {1.0, 2.0, 3.0}) save_checkpoint(folder.path, make_source(x));
   EXPECT_TRUE(has_checkpoint(folder.path));
   EXPECT_EQ(load_checkpoint(folder.path).data.number("time"), 3.0);
   std::filesystem::remove(folder / "checkpoint.h5");
@@ -92,8 +137,8 @@ TEST(Checkpoint, KeepsTheOneBefore) {
 /// a wrong one.
 TEST(Checkpoint, DamageAnywhereIsNoticedOrHarmless) {
   const Folder folder("checkpoint_damage");
-  save_checkpoint(folder.path, make_data(1));
-  save_checkpoint(folder.path, make_data(2));
+  save_checkpoint(folder.path, make_source(1));
+  save_checkpoint(folder.path, make_source(2));
   const std::string whole = read_text_file(folder / "checkpoint.h5");
   int n_fallback = 0, n_harmless = 0;
   for (std::size_t at = 0; at < whole.size(); at += 13) {
@@ -123,7 +168,7 @@ TEST(Checkpoint, DamageAnywhereIsNoticedOrHarmless) {
 TEST(Checkpoint, DamagedListOfArraysIsDamage) {
   const Folder folder("checkpoint_names");
   for (const std::string list : {"time\ntime\n", "time\ntime/x\n", "/\n", "\n"}) {
-    save_state_file(folder / "state.h5", make_data(1));
+    save_state_file(folder / "state.h5", make_source(1));
     {
       h5::File file = h5::File::open(folder / "state.h5", h5::Access::kAppend);
       ASSERT_GE(H5Ldelete(file.id(), "/names", H5P_DEFAULT), 0);
@@ -137,8 +182,8 @@ TEST(Checkpoint, DamagedListOfArraysIsDamage) {
 
 TEST(Checkpoint, NewerFormatIsRefusedNotReplaced) {
   const Folder folder("checkpoint_newer");
-  save_checkpoint(folder.path, make_data(1));
-  save_checkpoint(folder.path, make_data(2));
+  save_checkpoint(folder.path, make_source(1));
+  save_checkpoint(folder.path, make_source(2));
   {
     h5::File file = h5::File::open(folder / "checkpoint.h5", h5::Access::kAppend);
     const std::int64_t version[2] = {3, 0};
@@ -152,8 +197,8 @@ TEST(Checkpoint, NewerFormatIsRefusedNotReplaced) {
 
 TEST(Checkpoint, UnfinishedFileFallsBack) {
   const Folder folder("checkpoint_open");
-  save_checkpoint(folder.path, make_data(1));
-  save_checkpoint(folder.path, make_data(2));
+  save_checkpoint(folder.path, make_source(1));
+  save_checkpoint(folder.path, make_source(2));
   {
     h5::File file = h5::File::open(folder / "checkpoint.h5", h5::Access::kAppend);
     const std::int64_t no = 0;

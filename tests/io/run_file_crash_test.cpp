@@ -181,7 +181,7 @@ TEST(RunFileCrash, KillWhileSavingLeavesACheckpoint) {
       for (int k = 0;; ++k) {
         CheckpointData data;
         data.put("position", std::vector<double>(20000, k));
-        save_checkpoint(folder.path, data);
+        save_checkpoint(folder.path, CheckpointSource(data));
         report(pipe_end, k);
       }
     });
@@ -245,10 +245,11 @@ TEST(RunFileCrash, FullDiskKeepsTheOlderCheckpoint) {
   CheckpointData small, large;
   small.put("position", std::vector<double>(10, 1.5));
   large.put("position", std::vector<double>(100000, 2.5));
-  save_checkpoint(folder.path, small);
+  save_checkpoint(folder.path, CheckpointSource(small));
   {
     const FullDisk full(100000);
-    expect_file_error("File too large", [&] { save_checkpoint(folder.path, large); });
+    expect_file_error("File too large",
+                      [&] { save_checkpoint(folder.path, CheckpointSource(large)); });
   }
   EXPECT_EQ(load_checkpoint(folder.path).data.numbers("position"), std::vector<double>(10, 1.5));
   EXPECT_FALSE(std::filesystem::exists(folder / "checkpoint.h5.tmp"));
@@ -263,7 +264,7 @@ TEST(RunFileCrash, UnwritableFoldersAreNamed) {
   expect_file_error("none/run.vtkhdf: cannot create the file: No such file or directory",
                     [&] { RunFile::create(folder / "none/run.vtkhdf", {}); });
   expect_file_error("No such file or directory",
-                    [&] { save_checkpoint(folder / "none", CheckpointData()); });
+                    [&] { save_checkpoint(folder / "none", CheckpointSource()); });
   std::filesystem::create_directory(folder / "locked");
   std::filesystem::permissions(
       folder / "locked", std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
@@ -283,7 +284,7 @@ TEST(RunFileCrash, UnwritableFoldersAreNamed) {
       }
     };
     denied([&] { RunFile::create(folder / "locked/run.vtkhdf", {}); });
-    denied([&] { save_checkpoint(folder / "locked", CheckpointData()); });
+    denied([&] { save_checkpoint(folder / "locked", CheckpointSource()); });
     denied([&] { write_text_file(folder / "locked/run.xmf", "x"); });
     _exit(n);
   }

@@ -26,8 +26,7 @@ coupling::State two_spheres() {
 TEST(StateFile, KeepsTheStrengthOfNewBornSpheres) {
   coupling::State saved = two_spheres(), loaded = saved;
   saved.cbm.strength.set(1, {0, 1, 100, 8740});
-  io::CheckpointData data;
-  put_state(saved, data);
+  const io::CheckpointData data = state_data(saved);
   get_state(data, kTypes, loaded);
   EXPECT_EQ(coupling::hash_state(loaded), coupling::hash_state(saved));
   EXPECT_EQ(loaded.cbm.strength[1].at(100 + 2160), 0.25);
@@ -75,8 +74,7 @@ TEST(StateFile, KeepsNuclei) {
   saved.dcm.birth[1].edge = mixed(t.n_edge, 1.2, 5, 0.7);
   saved.dcm.birth[1].triangle = mixed(t.n_triangle, 1.2, 6, 0.8);
   saved.dcm.birth[1].link = std::vector<double>(42, 1.4);
-  io::CheckpointData data;
-  put_state(saved, data);
+  const io::CheckpointData data = state_data(saved);
   coupling::State s;
   get_state(data, kTypes, s);
   EXPECT_EQ(coupling::hash_state(s), coupling::hash_state(saved));
@@ -87,8 +85,7 @@ TEST(StateFile, KeepsNuclei) {
 TEST(StateFile, KeepsLives) {
   const coupling::State saved = living();
   coupling::State s;
-  io::CheckpointData data;
-  put_state(saved, data);
+  const io::CheckpointData data = state_data(saved);
   get_state(data, kTypes, s);
   EXPECT_EQ(coupling::hash_state(s), coupling::hash_state(saved));
   ASSERT_EQ(s.cycle.size(), saved.cycle.size());
@@ -117,8 +114,7 @@ TEST(StateFile, KeepsLives) {
 }
 
 TEST(StateFile, RefusesArraysThatAreMissingOrOfAnotherLength) {
-  io::CheckpointData sound;
-  put_state(living(), sound);
+  const io::CheckpointData sound = state_data(living());
   for (const char* damaged :
        {"cbm/strength", "dcm/birth_shape", "dcm/tension", "life/parent", "life/birth",
         "life/divisions", "life/wait_until", "clock/phase", "life/asleep"})
@@ -148,8 +144,8 @@ TEST(StateFile, RefusesArraysThatAreMissingOrOfAnotherLength) {
 template <class T>
 io::CheckpointData with(const coupling::State& state, const std::string& name, std::size_t at,
                         T value) {
-  io::CheckpointData sound, data;
-  put_state(state, sound);
+  const io::CheckpointData sound = state_data(state);
+  io::CheckpointData data;
   for (const auto& [other, array] : sound.all())
     std::visit(
         [&, &key = other](auto v) {
@@ -205,8 +201,7 @@ TEST(StateFile, RefusesContactsOfSpheresThatAreNotThere) {
   coupling::State saved = two_spheres();
   saved.cbm.touching = {{0, 1}, {1, ~7}};
   coupling::State state;
-  io::CheckpointData sound;
-  put_state(saved, sound);
+  const io::CheckpointData sound = state_data(saved);
   get_state(sound, kTypes, state);
   EXPECT_EQ(state.cbm.touching, saved.cbm.touching);
   for (const std::int64_t partner : {2L, 1L << 40, -(1L << 40)})

@@ -168,11 +168,11 @@ struct IdleRules : testing::Test {
     measures["resting_cells"] = {0, 0, 0};
   }
   std::vector<std::string> list(double time = 100) const {
-    return list_idle_rules(scene, measures, state, time);
+    return list_idle_rules(scene, measures, world, time);
   }
   Scene scene;
   Measures measures;
-  coupling::State state;
+  coupling::World world;
 };
 
 TEST_F(IdleRules, AreAllListedWithTheirReason) {
@@ -188,7 +188,7 @@ TEST_F(IdleRules, AreAllListedWithTheirReason) {
 TEST_F(IdleRules, AreNotThoseThatActed) {
   measures["slowest_growth"] = {1, 0.98, 1};
   EXPECT_EQ(list().size(), 2U) << "growth was slowed by 2 %";
-  state.deaths = 1;
+  world.state.deaths = 1;
   EXPECT_EQ(list().size(), 1U);
   measures["resting_cells"] = {0, 3, 0};
   EXPECT_TRUE(list().empty());
@@ -201,8 +201,8 @@ TEST_F(IdleRules, AreNotThoseThatBeginLater) {
 }
 
 TEST_F(IdleRules, ACellThatDiesIsEnough) {
-  state.cycle.assign(2, {});
-  state.cycle[1].fate = coupling::Fate::kLyse;
+  world.state.cycle.assign(2, {});
+  world.state.cycle[1].fate = coupling::Fate::kLyse;
   EXPECT_EQ(list().size(), 2U);
 }
 
