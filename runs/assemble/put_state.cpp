@@ -66,13 +66,6 @@ void put_lanes(const Written& w, const std::string& name, coupling::LaneRange ra
                                     }});
 }
 
-void append_ramp(const Ramp& r, std::vector<double>& out) {
-  out.insert(out.end(), {r.from, r.to, r.start, r.end});
-}
-void append_point(const Vec3& x, std::vector<double>& out) {
-  out.insert(out.end(), {x.x(), x.y(), x.z()});
-}
-
 /// Adds the birth shapes that are still remembered: lane, then weight, area, edges and triangles;
 /// lengths of links with nuclei.
 void put_birth_shapes(const Written& w) {
@@ -97,7 +90,7 @@ void put_birth_shapes(const Written& w) {
                     [&s](std::size_t lane, std::vector<double>& out) {
                       const dcm::BirthShape& b = s.birth[lane];
                       if (b.edge.empty()) return;
-                      append_ramp(b.weight, out);
+                      append_numbers(b.weight, out);
                       out.push_back(b.area);
                       out.insert(out.end(), b.edge.begin(), b.edge.end());
                       out.insert(out.end(), b.triangle.begin(), b.triangle.end());
@@ -152,12 +145,12 @@ void put_shells(const Written& w) {
                                    }});
   put_array(w, "dcm/lineage", s.lineage);
   put_items<double>(w, "dcm/volume", s.volume.size(), 4,
-                    [&s](std::size_t k, auto& out) { append_ramp(s.volume[k], out); });
+                    [&s](std::size_t k, auto& out) { append_numbers(s.volume[k], out); });
   put_birth_shapes(w);
   put_nuclei(s, w.source.whole);
   put_tensions(s, w.source.whole);
   put_items<double>(w, "dcm/pull", s.pull.size(), 3,
-                    [&s](std::size_t k, auto& out) { append_point(s.pull[k], out); });
+                    [&s](std::size_t k, auto& out) { append_numbers(s.pull[k], out); });
 }
 
 void put_spheres(const Written& w) {
@@ -173,16 +166,16 @@ void put_spheres(const Written& w) {
   put_items<std::int64_t>(w, "cbm/type", n, 1,
                           [&s](std::size_t k, auto& out) { out.push_back(s.type[k]); });
   put_lanes<double>(w, "cbm/volume", lanes, 4 * n, [&s, first](std::size_t lane, auto& out) {
-    append_ramp(s.volume[lane - first], out);
+    append_numbers(s.volume[lane - first], out);
   });
   put_lanes<double>(w, "cbm/strength", lanes, 4 * n, [&s, first](std::size_t lane, auto& out) {
-    append_ramp(s.strength[lane - first], out);
+    append_numbers(s.strength[lane - first], out);
   });
   put_lanes<double>(w, "cbm/young", lanes, n, [&s, first](std::size_t lane, auto& out) {
     out.push_back(s.young[lane - first]);
   });
   put_items<double>(w, "cbm/pull", n, 3,
-                    [&s](std::size_t k, auto& out) { append_point(s.pull[k], out); });
+                    [&s](std::size_t k, auto& out) { append_numbers(s.pull[k], out); });
   w.source.put("cbm/touching",
                ArraySource<std::int64_t>{2 * coupling::count_touching(w.ranks, all),
                                          [w](const TakePart<std::int64_t>& take) {

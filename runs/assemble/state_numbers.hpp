@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "core/error.hpp"
@@ -15,15 +14,18 @@
 
 namespace acinus::runs {
 
+inline void append_numbers(const Ramp& r, std::vector<double>& out) {
+  out.insert(out.end(), {r.from, r.to, r.start, r.end});
+}
+inline void append_numbers(const Vec3& x, std::vector<double>& out) {
+  out.insert(out.end(), {x.x(), x.y(), x.z()});
+}
+
 /// Numbers of ramps or points, one after the other.
 template <class Values>
 std::vector<double> flatten(const Values& values) {
   std::vector<double> v;
-  for (const auto& x : values)
-    if constexpr (std::is_same_v<decltype(x), const Ramp&>)
-      v.insert(v.end(), {x.from, x.to, x.start, x.end});
-    else
-      v.insert(v.end(), {x.x(), x.y(), x.z()});
+  for (const auto& x : values) append_numbers(x, v);
   return v;
 }
 inline std::vector<Ramp> unflatten(const std::vector<double>& v) {
