@@ -5,7 +5,8 @@
 #include <atomic>
 #include <cstddef>
 #include <numeric>
-#include <vector>
+
+#include "core/parallel/row_vector.hpp"
 
 namespace acinus {
 
@@ -18,8 +19,15 @@ class DisjointSets {
   explicit DisjointSets(std::size_t n) { reset(n); }
 
   void reset(std::size_t n) {
-    parent_.resize(n);
-    std::iota(parent_.begin(), parent_.end(), 0);
+    set_size(n);
+    separate(0, n);
+  }
+  /// Makes room for n numbers; only those that separate() was called for may be used.
+  void set_size(std::size_t n) { acinus::set_size(parent_, n); }
+  /// Puts each of the numbers [first, last) in a set of its own.
+  void separate(std::size_t first, std::size_t last) {
+    std::iota(parent_.begin() + static_cast<std::ptrdiff_t>(first),
+              parent_.begin() + static_cast<std::ptrdiff_t>(last), static_cast<int>(first));
   }
   std::size_t size() const { return parent_.size(); }
 
@@ -34,9 +42,6 @@ class DisjointSets {
     }
     return k;
   }
-  bool is_joined(int k) const {
-    return parent_[k] != k;
-  }  ///< true if k has been joined to a lower number
   void join(int a, int b) {
     for (;;) {
       auto [low, high] = std::minmax({find(a), find(b)});
@@ -49,7 +54,7 @@ class DisjointSets {
  private:
   static constexpr std::memory_order kRelaxed = std::memory_order_relaxed;
   std::atomic_ref<int> parent(int k) { return std::atomic_ref(parent_[k]); }
-  std::vector<int> parent_;
+  RowVector<int> parent_;  ///< those that are not used have no memory
 };
 
 }  // namespace acinus

@@ -128,16 +128,13 @@ void CoarseMatrix::place_cells(std::span<const double> position) {
 /// of a contact know it, so each knows what the other one needs.
 void CoarseMatrix::join_cells(std::span<const std::uint8_t> active) {
   using LanePair = std::array<LaneIndex, 2>;
-  std::vector<LanePair> pair;                        // row and column
-  std::vector<std::pair<int, LaneIndex>> give, get;  // by process
+  std::vector<LanePair> pair;  // row and column
+  std::vector<BorderPair> across;
   LanePair last{};
   const auto join = [&](LaneIndex row, LaneIndex column) {
     if (!owns(row)) return;
     pair.push_back({row, column});
-    if (owns(column)) return;
-    const int rank = system_->ownership.owner[column / kLanes];
-    give.emplace_back(rank, row);
-    get.emplace_back(rank, column);
+    if (!owns(column)) across.push_back({row, column});
   };
   for_each_link(*system_, [&](const auto& l) {
     const Point at_b = point_of(l.b);
@@ -149,22 +146,14 @@ void CoarseMatrix::join_cells(std::span<const std::uint8_t> active) {
     join(ends[1], ends[0]);
   });
   sort_unique(pair);
-  sort_unique(give);
-  sort_unique(get);
-
-  plan_.peer.clear();
+  BorderCells border = list_border_cells(system_->ownership, across);
+  plan_ = std::move(border.plan);
   send_.clear();
-  for (std::size_t g = 0, k = 0; k < get.size();) {
-    ExchangePlan::Peer peer{get[k].first, send_.size(), 0, lane_.size() - n_own_, 0};
-    for (; k < get.size() && get[k].first == peer.rank; ++k) {
-      lane_.push_back(get[k].second);
-      number_[get[k].second] = static_cast<std::uint32_t>(lane_.size());
-    }
-    for (; g < give.size() && give[g].first == peer.rank; ++g)
-      send_.push_back(static_cast<std::uint32_t>(number_of(give[g].second)));
-    peer.send_end = send_.size();
-    peer.receive_end = lane_.size() - n_own_;
-    plan_.peer.push_back(peer);
+  for (const LaneIndex lane : border.send)
+    send_.push_back(static_cast<std::uint32_t>(number_of(lane)));
+  for (const LaneIndex lane : border.receive) {
+    lane_.push_back(lane);
+    number_[lane] = static_cast<std::uint32_t>(lane_.size());
   }
 
   start_.assign(n_own_ + 1, 0);

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "solve/border_cells.hpp"
 #include "solve/operator.hpp"
 
 namespace acinus::solve {
@@ -18,9 +19,6 @@ struct CoarseInput {
   std::span<const std::uint8_t> active;  ///< [n_block * kLanes] 1 where the lane holds a cell
   RowVector<double>&mode, &product;      ///< scratch
 };
-
-/// Index of a lane: block * kLanes + lane.
-using LaneIndex = std::uint32_t;
 
 class CoarseMatrix {
  public:

@@ -8,18 +8,16 @@
 
 #include "core/numbers/exact_sum.hpp"
 #include "core/parallel/threads.hpp"
-#include "solve/system.hpp"
+#include "solve/cell_groups.hpp"
 
 namespace acinus::solve {
 
-/// Sums over groups. Every own block sums over its points for each of its groups; these parts are
-/// added exactly, or, where a group has few of them, in the order of the blocks.
+/// Sums over groups of cells. Every own block sums over its points for each of its groups; these
+/// parts are added exactly, or, where a group has few of them, in the order of the blocks.
 class GroupSums {
  public:
-  /// Indexes the parts of the groups.
-  /// @param group    [n_block * kLanes] of each cell, -1: none; of all blocks, not only own ones
-  /// @param n_group  groups are numbered from 0
-  void prepare(const System& system, std::span<const int> group, std::size_t n_group);
+  /// Indexes the parts of the groups, which are to stay until the last sum. Collective.
+  void prepare(const System& system, const CellGroups& groups);
 
   /// Sums N numbers over the points of each group. Collective.
   /// @param f    f(address, group, numbers): adds the contribution of a point
@@ -39,7 +37,8 @@ class GroupSums {
   }
 
  private:
-  /// Contribution of one block to one group.
+  void count_shared_parts();
+  /// Contribution of one block to one group, or shared group.
   struct GroupPart {
     int block, group;
   };
@@ -48,18 +47,18 @@ class GroupSums {
     GroupPart part;
     std::array<double, N> number;
   };
-  enum class GroupKind : std::uint8_t { kFew, kMany };
   static constexpr std::size_t kFewParts = 8;
 
   template <class F>
   void for_each_point(std::size_t b, const F& f) const {
     const Block& block = system_->block[b];
     for (std::size_t l = 0; l < kLanes; ++l)
-      if (const int g = group_[b * kLanes + l]; g >= 0)
+      if (const int g = groups_->of_cell[b * kLanes + l]; g >= 0)
         for (int i = 0; i < block.pattern->n_point; ++i)
           f(make_address(block.first_row + i, static_cast<int>(l)), g);
   }
-  std::span<const std::uint32_t> parts_of(std::size_t group) const {
+  std::span<const std::uint32_t> parts_of(int group) const {
+    if (group < 0) return {};
     return std::span(by_group_).subspan(start_[group], start_[group + 1] - start_[group]);
   }
   template <std::size_t N>
@@ -67,19 +66,16 @@ class GroupSums {
                    std::span<const std::array<double, N>> number, std::span<ExactSum, N> sum) const;
 
   const System* system_ = nullptr;
-  std::span<const int> group_;
+  const CellGroups* groups_ = nullptr;
   std::vector<std::size_t> own_;         ///< numbers of own blocks
   std::vector<std::size_t> first_part_;  ///< [own blocks + 1]
   std::vector<GroupPart> part_;          ///< of own blocks, ascending
   std::vector<std::uint32_t> by_group_;  ///< numbers of parts, group by group
   std::vector<std::size_t> start_;       ///< [n_group + 1] in by_group_
-  std::vector<GroupKind> kind_;          ///< [n_group] by the parts of all processes
   std::vector<std::uint8_t> is_shared_;  ///< [n_group] 1: several processes have parts
-  std::vector<std::size_t> few_, many_;  ///< shared groups
+  std::vector<int> few_, many_;          ///< shared groups, by the parts of all processes
   std::vector<double> scratch_;          ///< [part][number] of a sum
-  // Of prepare.
-  std::vector<std::size_t> n_part_, next_;
-  std::vector<int> owner_of_group_;
+  std::vector<std::size_t> next_;        ///< scratch
 };
 
 template <std::size_t N>
@@ -117,10 +113,10 @@ void GroupSums::sum(const F& f, const Put& put) {
     for (std::size_t n = 0; n < N; ++n) value[n] = sum[n].value();
     return value;
   };
-  for (std::size_t g = 0; g < kind_.size(); ++g) {
-    const std::span<const std::uint32_t> parts = parts_of(g);
-    if (parts.empty() || is_shared_[g]) continue;
-    if (kind_[g] == GroupKind::kFew) {
+  for (std::size_t g = 0; g < groups_->n; ++g) {
+    if (is_shared_[g] != 0) continue;
+    const std::span<const std::uint32_t> parts = parts_of(static_cast<int>(g));
+    if (parts.size() <= kFewParts) {
       std::array<double, N> total{};
       for (const std::uint32_t p : parts)
         for (std::size_t n = 0; n < N; ++n) total[n] += number[p][n];
@@ -135,40 +131,41 @@ void GroupSums::sum(const F& f, const Put& put) {
   if (!many_.empty()) {
     std::vector<ExactSum> totals(N * many_.size());
     for (std::size_t k = 0; k < many_.size(); ++k)
-      add_exactly<N>(parts_of(many_[k]), number, std::span<ExactSum, N>(&totals[N * k], N));
+      add_exactly<N>(parts_of(groups_->shared[many_[k]]), number,
+                     std::span<ExactSum, N>(&totals[N * k], N));
     ranks.sum(totals);
     for (std::size_t k = 0; k < many_.size(); ++k)
-      put(many_[k], value_of(std::span<const ExactSum, N>(&totals[N * k], N)));
+      if (const int g = groups_->shared[many_[k]]; g >= 0)
+        put(static_cast<std::size_t>(g), value_of(std::span<const ExactSum, N>(&totals[N * k], N)));
   }
   if (few_.empty()) return;
   std::vector<GroupPartSum<N>> own, all;
-  for (const std::size_t g : few_)
-    for (const std::uint32_t p : parts_of(g)) own.push_back({part_[p], number[p]});
+  for (const int k : few_)
+    for (const std::uint32_t p : parts_of(groups_->shared[k]))
+      own.push_back({{part_[p].block, k}, number[p]});
   ranks.gather<GroupPartSum<N>>(own, all);
   std::ranges::sort(all, {},
                     [](const GroupPartSum<N>& p) { return std::pair(p.part.group, p.part.block); });
   for (std::size_t k = 0; k < all.size();) {
-    const int g = all[k].part.group;
+    const int shared = all[k].part.group;
     std::array<double, N> total{};
-    for (; k < all.size() && all[k].part.group == g; ++k)
+    for (; k < all.size() && all[k].part.group == shared; ++k)
       for (std::size_t n = 0; n < N; ++n) total[n] += all[k].number[n];
-    put(g, total);
+    if (const int g = groups_->shared[shared]; g >= 0) put(static_cast<std::size_t>(g), total);
   }
 }
 
 template <class F>
 void GroupSums::largest(const F& f, std::vector<double>& value) const {
-  value.assign(kind_.size(), 0);
+  value.assign(groups_->n, 0);
   for (const std::size_t b : own_)
     for_each_point(b, [&](Address a, std::size_t g) { value[g] = std::max(value[g], f(a, g)); });
+  if (groups_->shared.empty()) return;
   std::vector<double> shared;
-  for (const auto* groups : {&many_, &few_})
-    for (const std::size_t g : *groups) shared.push_back(value[g]);
-  if (shared.empty()) return;
+  for (const int g : groups_->shared) shared.push_back(g >= 0 ? value[g] : 0);
   system_->ownership.ranks.max(shared);
-  std::size_t next = 0;
-  for (const auto* groups : {&many_, &few_})
-    for (const std::size_t g : *groups) value[g] = shared[next++];
+  for (std::size_t k = 0; k < shared.size(); ++k)
+    if (const int g = groups_->shared[k]; g >= 0) value[g] = shared[k];
 }
 
 }  // namespace acinus::solve

@@ -7,59 +7,11 @@
 
 #include "core/parallel/make_room.hpp"
 #include "core/parallel/threads.hpp"
-#include "solve/link_kernels.hpp"
 
 namespace acinus::solve {
 namespace {
 
 using Map3x6 = Eigen::Matrix<double, 3, 6>;
-
-/// Numbers the groups of cells joined by pair links; returns how many there are.
-int number_groups(const System& s, std::span<const std::uint8_t> active, RigidWorkspace& work) {
-  auto cell_of = [&](Point p) {
-    return static_cast<int>(s.block_of(p)) * kLanes + static_cast<int>(p % kLanes);
-  };
-  DisjointSets& sets = work.sets;
-  sets.reset(active.size());
-  // Contacts come sorted by pair of cells.
-  const auto join_all = [&](const auto& links, const auto& ends) {
-    const std::size_t n_part = count_threads(s.n_row);
-    for_each_part(n_part, [&](std::size_t part) {
-      int last_a = -1, last_b = -1;
-      for (std::size_t l = part * links.size() / n_part; l < (part + 1) * links.size() / n_part;
-           ++l) {
-        const auto [end_a, end_b] = ends(links[l]);
-        if (end_b == kNowhere) continue;
-        const int a = cell_of(end_a), b = cell_of(end_b);
-        if (a == last_a && b == last_b) continue;
-        last_a = a;
-        last_b = b;
-        sets.join(a, b);
-      }
-    });
-  };
-  join_all(s.links.link, [](const Link& l) { return std::array{l.a.point[0], l.b.point[0]}; });
-  join_all(s.point_links, [&](const PointLink& l) {
-    // Pairs of spheres are listed before they touch, some steps sooner or later.
-    return std::array{l.a, has_matrix(l, s.stiffness_scale) ? l.b : kNowhere};
-  });
-  if (!s.ownership.is_whole()) {  // each process knows the contacts of its own cells
-    std::vector<std::array<int, 2>> own, all;
-    for (int c = 0; c < static_cast<int>(sets.size()); ++c)
-      if (sets.is_joined(c)) own.push_back({c, sets.find(c)});
-    s.ownership.ranks.gather<std::array<int, 2>>(own, all);
-    for (const auto& [a, b] : all) sets.join(a, b);
-  }
-  work.group.assign(active.size(), -1);
-  int n = 0;
-  for (std::size_t c = 0; c < active.size(); ++c) {
-    if (!active[c]) continue;
-    const std::size_t root = sets.find(static_cast<int>(c));
-    if (work.group[root] < 0) work.group[root] = n++;
-    work.group[c] = work.group[root];
-  }
-  return n;
-}
 
 /// Six unit motions of a point: three translations, then rotations about the centre.
 Map3x6 unit_motions(const Vec3& from_center) {
@@ -112,11 +64,15 @@ class RigidModes {
  public:
   RigidModes(const Operator& op, const RigidCells& cells, RigidWorkspace& work)
       : op_(op), s_(op.system()), position_(cells.position), work_(work), groups_(work.groups) {
-    groups_.assign(number_groups(s_, cells.active, work), {});
-    for (std::size_t c = 0; c < work.group.size(); ++c)
-      if (work.group[c] >= 0 && s_.block[c / kLanes].pattern->has_rotations())
-        groups_[work.group[c]].rotates = true;
-    work.sums.prepare(s_, work.group, groups_.size());
+    find_groups(s_, cells.active, work.cells);
+    groups_.assign(work.cells.n, {});
+    // Vessels that bend, the only rotations, are computed by one process.
+    for (const auto& [first, last] : s_.own)
+      for (std::size_t c = first * kLanes; c < last * kLanes; ++c)
+        if (const int g = work.cells.of_cell[c];
+            g >= 0 && s_.block[c / kLanes].pattern->has_rotations())
+          groups_[g].rotates = true;
+    work.sums.prepare(s_, work.cells);
     work.sums.sum<4>(
         [&](Address a, std::size_t, std::array<double, 4>& sum) {
           const Vec3 x = at(a);
@@ -248,12 +204,12 @@ class RigidModes {
   /// of the contacts.
   void compute_ties() {
     work_.tie.clear();
-    set_size(work_.tie_of_cell, work_.group.size());
+    set_size(work_.tie_of_cell, work_.cells.of_cell.size());
     for (const auto& [first, last] : s_.own)
       std::fill_n(work_.tie_of_cell.data() + first * kLanes, (last - first) * kLanes, -1);
     op_.for_each_external([&](const Stencil& stencil, const auto& l) {
       const std::size_t cell = cell_of(stencil.address[0]);
-      const int g = work_.group[cell];
+      const int g = work_.cells.of_cell[cell];
       if (g < 0) return;
       Vec3 place = Vec3::Zero();
       for (int k = 0; k < stencil.n; ++k) place += stencil.weight[k] * at(stencil.address[k]);

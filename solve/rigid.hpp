@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "core/disjoint_sets.hpp"
+#include "solve/cell_groups.hpp"
 #include "solve/group_sums.hpp"
 #include "solve/operator.hpp"
 
@@ -32,9 +32,8 @@ struct RigidGroup {
 };
 
 struct RigidWorkspace {
-  std::vector<int> group;  ///< [n_block * kLanes] group of each cell, -1: empty lane
-  DisjointSets sets;
-  std::vector<RigidGroup> groups;
+  CellGroups cells;
+  std::vector<RigidGroup> groups;  ///< [group]
   GroupSums sums;
   std::vector<double> squared_reach;  ///< [group] um^2
   RowVector<int> tie_of_cell;         ///< [n_block * kLanes] of own cells: index of tie, -1: none

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/parallel/threads.hpp"
+#include "core/sort_unique.hpp"
 
 // Run as it stands and under mpirun: the claims are the same.
 
@@ -49,23 +50,55 @@ double value_at(Address a) {
   return std::sin(1.0 + a) * std::pow(10.0, static_cast<int>(a % 23) - 11);
 }
 
+/// Groups as the processes of a system know them, with the number of each here, -1: no own cell.
+struct KnownGroups {
+  CellGroups groups;
+  std::vector<int> number;
+};
+
+KnownGroups know_groups(const System& s, const std::vector<int>& group, std::size_t n_group) {
+  KnownGroups known{{}, std::vector<int>(n_group, -1)};
+  known.groups.of_cell.assign(group.size(), -1);
+  std::vector<std::vector<int>> owners(n_group);
+  for (std::size_t c = 0; c < group.size(); ++c) {
+    if (group[c] < 0) continue;
+    owners[group[c]].push_back(s.ownership.is_whole() ? 0 : s.ownership.owner[c / kLanes]);
+    if (!s.ownership.owns(c / kLanes)) continue;
+    int& number = known.number[group[c]];
+    if (number < 0) number = static_cast<int>(known.groups.n++);
+    known.groups.of_cell[c] = number;
+  }
+  for (std::size_t g = 0; g < n_group; ++g) {
+    sort_unique(owners[g]);
+    if (owners[g].size() > 1) known.groups.shared.push_back(known.number[g]);
+  }
+  return known;
+}
+
 struct Sums {
   std::vector<std::array<double, 2>> sum;
   std::vector<double> largest;
 };
 
 Sums find_sums(const System& s, const std::vector<int>& group, std::size_t n_group) {
+  const auto [groups, number] = know_groups(s, group, n_group);
   GroupSums sums;
-  sums.prepare(s, group, n_group);
-  Sums found;
-  found.sum.resize(n_group);
+  sums.prepare(s, groups);
+  std::vector<std::array<double, 2>> sum(groups.n);
+  std::vector<double> largest;
   sums.sum<2>(
-      [](Address a, std::size_t, std::array<double, 2>& sum) {
+      [](Address a, std::size_t, std::array<double, 2>& part) {
         sum[0] += value_at(a);
         sum[1] += 1;
       },
-      [&](std::size_t g, const std::array<double, 2>& sum) { found.sum[g] = sum; });
-  sums.largest([](Address a, std::size_t) { return std::abs(value_at(a)); }, found.largest);
+      [&](std::size_t g, const std::array<double, 2>& of_group) { sum[g] = of_group; });
+  sums.largest([](Address a, std::size_t) { return std::abs(value_at(a)); }, largest);
+  Sums found{std::vector<std::array<double, 2>>(n_group), std::vector<double>(n_group)};
+  for (std::size_t g = 0; g < n_group; ++g) {
+    if (number[g] < 0) continue;
+    found.sum[g] = sum[number[g]];
+    found.largest[g] = largest[number[g]];
+  }
   return found;
 }
 

@@ -1,0 +1,29 @@
+#pragma once
+/// Cells in contact across processes. Both processes of such a contact know it, so each knows what
+/// the other one needs without asking.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solve/system.hpp"
+
+namespace acinus::solve {
+
+/// Index of a lane: block * kLanes + lane.
+using LaneIndex = std::uint32_t;
+
+/// Own cell and a cell of another process in contact.
+using BorderPair = std::array<LaneIndex, 2>;
+
+/// Own cells that touch cells of other processes, and those cells: by process, ascending.
+struct BorderCells {
+  ExchangePlan plan;  ///< of `send` and `receive`
+  std::vector<LaneIndex> send, receive;
+};
+
+/// Lists the cells of pairs in contact. @param pairs  in any order, repeated or not
+BorderCells list_border_cells(const Ownership& ownership, std::span<const BorderPair> pairs);
+
+}  // namespace acinus::solve
