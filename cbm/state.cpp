@@ -105,11 +105,9 @@ std::vector<double> strengths_at(const State& s, double time) {
   return strength;
 }
 
-std::vector<solve::Block> make_blocks(const State& s) {
+void append_blocks(const State& s, solve::Blocks& blocks) {
   static const solve::BlockPattern kSinglePoint{1, {}, {}, {}};
-  solve::Block block;
-  block.pattern = &kSinglePoint;
-  return std::vector<solve::Block>(s.n_row(), block);
+  blocks.append_points(kSinglePoint, s.n_row());
 }
 
 }  // namespace acinus::cbm

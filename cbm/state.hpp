@@ -90,7 +90,7 @@ struct CellData {
   }
 };
 
-/// Blocks of unknowns of these cells.
-std::vector<solve::Block> make_blocks(const State& state);
+/// Appends the blocks of unknowns of these cells.
+void append_blocks(const State& state, solve::Blocks& blocks);
 
 }  // namespace acinus::cbm

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/box.hpp"
-#include "core/disjoint_sets.hpp"
+#include "core/parallel/disjoint_sets.hpp"
 #include "geometry/closed.hpp"
 #include "geometry/components.hpp"
 #include "geometry/measures.hpp"

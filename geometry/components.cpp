@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "core/disjoint_sets.hpp"
+#include "core/parallel/disjoint_sets.hpp"
 #include "core/sort_unique.hpp"
 
 namespace acinus::geometry {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/disjoint_sets.hpp"
+#include "core/parallel/disjoint_sets.hpp"
 
 namespace acinus::geometry {
 namespace {

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <utility>
 
-#include "core/disjoint_sets.hpp"
 #include "core/error.hpp"
+#include "core/parallel/disjoint_sets.hpp"
 
 namespace acinus::imaging {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/parallel/threads.hpp"
 #include "core/sort_unique.hpp"
-#include "solve/border_cells.hpp"
+#include "solve/border_exchange.hpp"
 #include "solve/link_kernels.hpp"
 
 namespace acinus::solve {
@@ -20,7 +20,7 @@ std::vector<BorderPair> join_own_cells(const System& s, DisjointSets& sets) {
   };
   const auto owns = [&](LaneIndex cell) { return s.ownership.owns(cell / kLanes); };
   const std::size_t n_part = count_threads(s.n_row);
-  std::vector<std::vector<BorderPair>> across(n_part);
+  std::vector<std::vector<BorderPair>> across(s.ownership.is_whole() ? 0 : n_part);
   // Contacts come sorted by pair of cells.
   const auto join_all = [&](const auto& links, const auto& ends) {
     for_each_part(n_part, [&](std::size_t part) {
@@ -59,7 +59,7 @@ class SharedSets {
  public:
   /// Finds them from pairs in contact across processes. Collective.
   SharedSets(const Ownership& ownership, std::span<const BorderPair> pairs, DisjointSets& own) {
-    const BorderCells border = list_border_cells(ownership, pairs);
+    const BorderExchange border = plan_border_exchange(ownership, pairs);
     std::vector<LaneIndex> out, in(border.receive.size());
     for (const LaneIndex c : border.send) out.push_back(name_of(c, own));
     ownership.ranks.exchange<LaneIndex>(border.plan, out, in);

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/disjoint_sets.hpp"
+#include "core/parallel/disjoint_sets.hpp"
 #include "core/parallel/row_vector.hpp"
 #include "solve/system.hpp"
 

@@ -146,7 +146,7 @@ void CoarseMatrix::join_cells(std::span<const std::uint8_t> active) {
     join(ends[1], ends[0]);
   });
   sort_unique(pair);
-  BorderCells border = list_border_cells(system_->ownership, across);
+  BorderExchange border = plan_border_exchange(system_->ownership, across);
   plan_ = std::move(border.plan);
   send_.clear();
   for (const LaneIndex lane : border.send)

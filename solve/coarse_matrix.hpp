@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "solve/border_cells.hpp"
+#include "solve/border_exchange.hpp"
 #include "solve/operator.hpp"
 
 namespace acinus::solve {

@@ -77,11 +77,14 @@ void Operator::divide() {
     }
     range_[k].last_block = b;
   }
-  range_of_row_.assign(s.n_row, -1);
+  if (s.ownership.is_whole())
+    set_size(range_of_row_, s.n_row);
+  else
+    range_of_row_ = make_zeros<int>(s.n_row);
   for (std::size_t k = 0; k < n; ++k)
     for_each_block(range_[k], [&](std::size_t, std::size_t first_row, std::size_t n_row) {
       std::fill_n(range_of_row_.begin() + static_cast<std::ptrdiff_t>(first_row), n_row,
-                  static_cast<int>(k));
+                  static_cast<int>(k) + 1);
     });
 }
 
@@ -91,7 +94,7 @@ template <class Ends>
 void Operator::share(std::size_t n, ShareLists ThreadRange::*to, const Ends& ends) {
   const std::size_t n_range = range_.size();
   for (ThreadRange& range : range_) (range.*to).resize(n_range);
-  const auto range_of = [&](Point p) { return p == kNowhere ? -1 : range_of_row_[p / kLanes]; };
+  const auto range_of = [&](Point p) { return p == kNowhere ? -1 : range_of_row_[p / kLanes] - 1; };
   for_each_part(n_range, [&](std::size_t part) {
     thread_local ShareLists mine;  // side by side while they are filled
     mine.resize(n_range);

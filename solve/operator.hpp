@@ -159,8 +159,8 @@ class Operator {
 
   const System* system_ = nullptr;
   std::vector<ThreadRange> range_;
-  std::vector<int> range_of_row_;  ///< [n_row] -1: of another process
-  bool merged_ = false;            ///< products in float use merge_
+  RowVector<int> range_of_row_;  ///< [n_row] range + 1, 0: of another process
+  bool merged_ = false;          ///< products in float use merge_
   LinkMerger merger_;
   MergedLinks merge_;
   RowVector<float> inverse_;  ///< [n_row][6][lane]

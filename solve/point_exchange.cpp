@@ -1,5 +1,6 @@
 #include "solve/point_exchange.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <map>
@@ -10,20 +11,27 @@
 namespace acinus::solve {
 namespace {
 
-/// Set of points, read in ascending order.
+/// Set of points, read in ascending order. Has memory for the points in it and for those next to
+/// them.
 class PointSet {
  public:
-  explicit PointSet(std::size_t n) : word_((n + kBits - 1) / kBits, 0) {}
-  void add(Point p) { word_[p / kBits] |= std::uint64_t{1} << (p % kBits); }
+  explicit PointSet(std::size_t n) : word_(make_zeros<std::uint64_t>((n + kBits - 1) / kBits)) {}
+  void add(Point p) {
+    const std::size_t w = p / kBits;
+    word_[w] |= std::uint64_t{1} << (p % kBits);
+    first_ = std::min(first_, w);
+    last_ = std::max(last_, w + 1);
+  }
   void append_to(std::vector<Point>& points) const {
-    for (std::size_t w = 0; w < word_.size(); ++w)
+    for (std::size_t w = first_; w < last_; ++w)
       for (std::uint64_t left = word_[w]; left != 0; left &= left - 1)
         points.push_back(static_cast<Point>(w * kBits + std::countr_zero(left)));
   }
 
  private:
   static constexpr std::size_t kBits = 64;
-  std::vector<std::uint64_t> word_;
+  RowVector<std::uint64_t> word_;
+  std::size_t first_ = static_cast<std::size_t>(-1), last_ = 0;  ///< words with points
 };
 
 /// Points sent to another process, and points received from it.
@@ -60,8 +68,12 @@ void PointExchange::plan(const System& s) {
     if (own_a == s.owns(b[0])) return;
     const auto& [own, other] = own_a ? std::pair(a, b) : std::pair(b, a);
     const int rank = s.ownership.owner[s.block_of(other[0])];
-    const PointSet none(peers.contains(rank) ? 0 : s.n_row * kLanes);
-    PeerPoints& peer = peers.try_emplace(rank, PeerPoints{none, none}).first->second;
+    auto at = peers.find(rank);
+    if (at == peers.end()) {
+      const std::size_t n = s.n_row * kLanes;
+      at = peers.emplace(rank, PeerPoints{PointSet(n), PointSet(n)}).first;
+    }
+    PeerPoints& peer = at->second;
     for (const Point p : own) peer.send.add(p);
     for (const Point p : other) peer.receive.add(p);
   };

@@ -176,11 +176,9 @@ class RigidModes {
   static double size_of(const Vec6& motion, const RigidGroup& g) {
     return motion.head<3>().norm() + motion.tail<3>().norm() * std::sqrt(g.squared_reach);
   }
-  std::size_t block_of(Address a) const { return s_.block_of_row[a / kPointStride]; }
+  std::size_t block_of(Address a) const { return s_.block.block_of_row(a / kPointStride); }
   std::size_t cell_of(Address a) const { return block_of(a) * kLanes + a % kPointStride; }
-  bool is_first_point(Address a) const {
-    return a / kPointStride == s_.block[block_of(a)].first_row;
-  }
+  bool is_first_point(Address a) const { return a / kPointStride == s_.row_of(block_of(a)); }
   /// Adds the resistance of the boundary to the matrices of the groups.
   void add_ties() {
     compute_ties();

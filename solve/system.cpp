@@ -1,6 +1,7 @@
 #include "solve/system.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/parallel/arrays.hpp"
 
@@ -32,34 +33,18 @@ void index_springs(BlockPattern& p) {
   }
 }
 
-void set_blocks(System& system, std::vector<Block> blocks) {
-  system.n_row = 0;
-  std::size_t n_spring = 0, n_hinge = 0, n_face = 0, n_beam = 0;
-  for (Block& b : blocks) {
-    b.first_row = system.n_row;
-    b.first_spring = n_spring;
-    b.first_hinge = n_hinge;
-    b.first_face = n_face;
-    b.first_beam = n_beam;
-    system.n_row += b.pattern->n_point;
-    n_spring += b.pattern->spring.size();
-    n_hinge += b.pattern->wing.size();
-    n_face += b.pattern->face.size();
-    n_beam += b.pattern->beam.size();
-  }
+void set_blocks(System& system, Blocks blocks) {
   system.block = std::move(blocks);
+  const Block& end = system.block.end();
+  system.n_row = end.first_row;
   system.own = find_own_runs(system.ownership, system.block.size());
-  system.block_of_row.clear();
-  for (std::size_t b = 0; b < system.block.size(); ++b)
-    system.block_of_row.insert(system.block_of_row.end(), system.block[b].pattern->n_point,
-                               static_cast<int>(b));
   set_size(system.force, system.n_dof());
   set_size(system.external_force, system.n_dof());
   set_size(system.medium, system.n_row * kLanes);
-  set_size(system.spring, n_spring * kSpringStride);
-  set_size(system.hinge, n_hinge * kHingeStride);
-  set_size(system.face, n_face * kFaceStride);
-  set_size(system.beam, n_beam * kBeamStride);
+  set_size(system.spring, end.first_spring * kSpringStride);
+  set_size(system.hinge, end.first_hinge * kHingeStride);
+  set_size(system.face, end.first_face * kFaceStride);
+  set_size(system.beam, end.first_beam * kBeamStride);
   clear_own(system, system.hinge, &Block::first_hinge, kHingeStride);
   clear_own(system, system.face, &Block::first_face, kFaceStride);
   clear_own(system, system.beam, &Block::first_beam, kBeamStride);

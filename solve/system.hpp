@@ -19,32 +19,11 @@
 #include "core/numbers/lanes.hpp"
 #include "core/parallel/row_vector.hpp"
 #include "core/parallel/threads.hpp"
+#include "solve/blocks.hpp"
 #include "solve/links.hpp"
 #include "solve/ownership.hpp"
 
 namespace acinus::solve {
-
-/// Points of one cell that interact; shared by all cells with the same mesh and terms.
-struct BlockPattern {
-  int n_point = 0;
-  std::vector<std::array<int, 2>> spring;
-  /// [n_spring] the other two points of the hinge about each spring; empty: no hinges
-  std::vector<std::array<int, 2>> wing;
-  std::vector<std::array<int, 3>> face;
-  /// [n_beam] beams in bending as {end, end, rotation, rotation}; blind to a common translation of
-  /// the ends.
-  std::vector<std::array<int, 4>> beam{};
-  /// Springs of each point as {other point, spring}, from first_spring_of[point]. Only where all
-  /// sides of contacts have springs between their points (faces of a mesh); empty: not indexed.
-  /// Filled by index_springs.
-  std::vector<std::array<int, 2>> spring_of{};
-  std::vector<std::size_t> first_spring_of{};
-  /// First point that is a rotation instead of a position, in um on a lever of 1 um. -1: none.
-  int n_place = -1;
-
-  bool has_rotations() const { return n_place >= 0; }
-  int count_places() const { return has_rotations() ? n_place : n_point; }
-};
 
 /// Fills spring_of and first_spring_of.
 void index_springs(BlockPattern& pattern);
@@ -70,16 +49,6 @@ inline constexpr int kFaceStride = 6 * kLanes;  ///< g1 g2, g3 = -(g1 + g2): mat
 /// beam: matrix g g^T + h h^T
 inline constexpr int kBeamStride = 12 * kLanes;
 
-/// Eight cells with one pattern.
-struct Block {
-  const BlockPattern* pattern = nullptr;
-  std::size_t first_row = 0;  ///< first point row
-  std::size_t first_spring = 0, first_hinge = 0, first_face = 0, first_beam = 0;
-  bool still = false;         ///< cells that do not move: their rank-one terms are left out
-  double dashpot = 0;         ///< nN s/um, friction included in the matrix of each spring
-  double dashpot_across = 1;  ///< ratio of the friction across a spring to that along it
-};
-
 /// Rank-one family: one vector per cell with a non-negative coefficient; adds c g g^T. Covers
 /// blocks [0, n_block).
 struct RankOne {
@@ -89,13 +58,12 @@ struct RankOne {
 
 /// Loads of one step. The caller clears; models add. Rows of blocks that are not own hold nothing.
 struct System {
-  std::vector<Block> block;
-  std::size_t n_row = 0;          ///< point rows over all blocks
-  Ownership ownership;            ///< to be set before set_blocks
-  std::vector<BlockRun> own;      ///< own blocks
-  std::vector<int> block_of_row;  ///< [n_row]
-  double friction_scale = 1;      ///< 1/h, 1/s: factor of friction in the matrix
-  double stiffness_scale = 1;     ///< 1: linearly implicit; 0: friction only (explicit Euler)
+  Blocks block;
+  std::size_t n_row = 0;       ///< point rows over all blocks
+  Ownership ownership;         ///< to be set before set_blocks
+  std::vector<BlockRun> own;   ///< own blocks
+  double friction_scale = 1;   ///< 1/h, 1/s: factor of friction in the matrix
+  double stiffness_scale = 1;  ///< 1: linearly implicit; 0: friction only (explicit Euler)
 
   RowVector<double> force;           ///< [n_row][3][lane] nN, forces inside and between cells
   RowVector<double> external_force;  ///< [n_row][3][lane] nN, migration and prescribed loads
@@ -109,11 +77,27 @@ struct System {
   std::vector<PointLink> point_links;  ///< contacts of spheres; friction from node to node
 
   std::size_t n_dof() const { return n_row * kPointStride; }
-  std::size_t block_of(Point p) const { return block_of_row[p / kLanes]; }
+  std::size_t block_of(Point p) const { return block.block_of_row(p / kLanes); }
   bool owns(Point p) const { return ownership.is_whole() || ownership.owns(block_of(p)); }
+  std::size_t n_own() const {
+    std::size_t n = 0;
+    for (const auto& [first, last] : own) n += last - first;
+    return n;
+  }
   /// First row of a block; for b = number of blocks, the number of rows.
-  std::size_t row_of(std::size_t b) const { return b < block.size() ? block[b].first_row : n_row; }
+  std::size_t row_of(std::size_t b) const { return block.row_of(b); }
 };
+
+/// Calls f(k, b) for every own block b, the k-th of them. The calls may be at the same time.
+template <class F>
+void for_each_own_block(const System& s, const F& f) {
+  for_each_index(s.n_own(), worth_threads(s.n_row), [&](std::size_t k) {
+    std::size_t run = 0, left = k;
+    for (; left >= s.own[run].second - s.own[run].first; ++run)
+      left -= s.own[run].second - s.own[run].first;
+    f(k, s.own[run].first + left);
+  });
+}
 
 /// Calls f(k) for the indices k of own blocks in vectors [n_row][3][lane].
 template <class F>
@@ -135,8 +119,10 @@ void for_each_own_number(const System& s, const F& f) {
 template <class Offset, class F>
 void for_each_own_number(const System& s, const Offset& offset, std::size_t n, const F& f) {
   for (const auto& [first, last] : s.own) {
-    const std::size_t begin = std::min(n, first < s.block.size() ? offset(s.block[first]) : n);
-    const std::size_t end = std::min(n, last < s.block.size() ? offset(s.block[last]) : n);
+    const auto begin_of = [&](std::size_t b) {
+      return std::min(n, b < s.block.size() ? offset(s.block[b]) : n);
+    };
+    const std::size_t begin = begin_of(first), end = begin_of(last);
     for_each_number(end - begin, [&](std::size_t k) { f(begin + k); });
   }
 }
@@ -158,8 +144,8 @@ void for_each_row_array(S& system, const F& f) {
   for (auto& family : system.rank_one) f(family.vector);
 }
 
-/// Sizes all arrays for the given blocks (offsets are filled in) and clears them. @pre ownership
-void set_blocks(System& system, std::vector<Block> blocks);
+/// Sizes all arrays for the given blocks and clears them. @pre ownership
+void set_blocks(System& system, Blocks blocks);
 
 /// Gathers the rows of all processes: every row of x becomes that of its owner.
 /// @param x  [n_row][3][lane]

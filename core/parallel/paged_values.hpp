@@ -18,7 +18,7 @@ template <class T>
 class PagedValues {
  public:
   /// Values of a page. Bits are compared, so that 0 and -0 stay what they are.
-  static constexpr std::size_t kPage = 64;
+  static constexpr std::size_t kPage = 256;
 
   PagedValues() = default;
   explicit PagedValues(const std::vector<T>& values)

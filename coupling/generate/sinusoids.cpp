@@ -10,7 +10,7 @@
 #include <set>
 #include <tuple>
 
-#include "core/disjoint_sets.hpp"
+#include "core/parallel/disjoint_sets.hpp"
 #include "coupling/generate/buckets.hpp"
 
 namespace acinus::coupling {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <tuple>
 
-#include "core/disjoint_sets.hpp"
+#include "core/parallel/disjoint_sets.hpp"
 #include "core/sort_unique.hpp"
 #include "coupling/measure/cell_numbers.hpp"
 

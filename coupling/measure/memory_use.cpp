@@ -81,8 +81,7 @@ std::size_t measure_cell_work(const Workspace& w) {
 }
 
 std::size_t measure_numbering(const Workspace& w) {
-  return memory_of(w.system.block) + memory_of(w.system.block_of_row) +
-         memory_of(w.system.ownership.owner) + memory_of(w.active) +
+  return w.system.block.memory() + memory_of(w.system.ownership.owner) + memory_of(w.active) +
          memory_of(w.rigid.cells.of_cell) + memory_of(w.near.box) + memory_of(w.near.send) +
          memory_of(w.near.receive);
 }

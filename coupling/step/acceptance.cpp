@@ -46,11 +46,7 @@ double edge_of(const World& world, const Workspace& w, std::size_t lane) {
 
 /// Lane index (dcm lanes, then cbm cells) of an address.
 std::size_t lane_at(const Workspace& w, Address a) {
-  const auto& blocks = w.system.block;
-  const std::size_t row = a / kPointStride;
-  const auto it =
-      std::ranges::upper_bound(blocks, row, {}, [](const solve::Block& b) { return b.first_row; });
-  return static_cast<std::size_t>(it - blocks.begin() - 1) * kLanes + a % kLanes;
+  return w.system.block.block_of_row(a / kPointStride) * kLanes + a % kLanes;
 }
 
 /// Least share of its area that a face keeps in a step, projected on its normal: faces that shrink

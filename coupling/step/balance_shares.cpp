@@ -18,15 +18,20 @@ constexpr double kImbalance = 1.1;
 /// Busy time of this process since its start, s.
 double busy_time() { return wall_seconds() - Ranks::traffic().wait_s; }
 
-/// Relative costs of blocks without a measurement: their points and the contacts of these.
-std::vector<double> count_work(const solve::System& s) {
+/// Relative costs of own blocks without a measurement: their points and the contacts of these.
+/// @return [n_block], of own blocks
+RowVector<double> count_work(const solve::System& s) {
   constexpr double kLinkWork = 2;  // points
-  std::vector<double> work;
-  for (std::size_t b = 0; b < s.block.size(); ++b)
-    work.push_back(static_cast<double>(kLanes * (s.row_of(b + 1) - s.row_of(b))));
+  auto work = make_zeros<double>(s.block.size());
+  for (const auto& [first, last] : s.own)
+    for (std::size_t b = first; b < last; ++b)
+      work[b] = static_cast<double>(kLanes * (s.row_of(b + 1) - s.row_of(b)));
+  const auto add = [&](solve::Point p) {
+    if (s.owns(p)) work[s.block_of(p)] += kLinkWork;
+  };
   for (const solve::Link& l : s.links.link) {
-    work[s.block_of(l.a.point[0])] += kLinkWork;
-    if (l.b.exists()) work[s.block_of(l.b.point[0])] += kLinkWork;
+    add(l.a.point[0]);
+    if (l.b.exists()) add(l.b.point[0]);
   }
   return work;
 }
@@ -44,27 +49,24 @@ void balance_shares(World& world, Workspace& w) {
   cost.steps = 0;
   if (first) return;  // with reading and placing
   // The busy time of each process is distributed over its blocks by their work.
-  const std::vector<double> work = count_work(w.system);
+  const RowVector<double> work = count_work(w.system);
   double own_work = 0;
   for (const auto& [begin, end] : w.system.own)
     for (std::size_t b = begin; b < end; ++b) own_work += work[b];
-  std::vector<double> own, all, times;
-  ownership.ranks.gather<double>(std::span(&busy, 1), times);
-  for (const auto& [begin, end] : w.system.own)
-    for (std::size_t b = begin; b < end; ++b) own.push_back(busy / steps * work[b] / own_work);
-  solve::gather_in_order(
-      ownership.ranks, w.system.block.size(), [&](std::size_t b) { return ownership.owner[b]; },
-      [](std::size_t) { return std::size_t{1}; }, own, all);
   const State& s = world.state;
   cost.of_cell.clear();
-  for (std::size_t b = 0; b < all.size(); ++b) {
-    std::size_t n = 0;
-    for_each_cell_of(s, b, [&](std::int64_t, std::size_t) { ++n; });
-    for_each_cell_of(s, b, [&](std::int64_t lineage, std::size_t) {
-      cost.of_cell.emplace_back(lineage, all[b] / static_cast<double>(n));
-    });
-  }
+  for (const auto& [begin, end] : w.system.own)
+    for (std::size_t b = begin; b < end; ++b) {
+      std::size_t n = 0;
+      for_each_cell_of(s, b, [&](std::int64_t, std::size_t) { ++n; });
+      for_each_cell_of(s, b, [&](std::int64_t lineage, std::size_t) {
+        cost.of_cell.emplace_back(lineage,
+                                  busy / steps * work[b] / own_work / static_cast<double>(n));
+      });
+    }
   std::ranges::sort(cost.of_cell);
+  std::vector<double> times;
+  ownership.ranks.gather<double>(std::span(&busy, 1), times);
   double sum = 0;
   for (const double t : times) sum += t;
   const double most = *std::ranges::max_element(times);

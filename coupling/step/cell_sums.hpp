@@ -19,18 +19,16 @@ void for_each_own_cell(const Workspace& w, bool unconstrained_only, const F& f, 
   // Kept per calling thread to reuse memory; other threads of the loop write to the parts.
   thread_local std::vector<Part> kept_part;
   std::vector<Part>& part = kept_part;
-  const auto& block = w.system.block;
-  part.assign(block.size(), Part{});
-  for_each_index(block.size(), worth_threads(w.system.n_row), [&](std::size_t b) {
-    if (!w.system.ownership.owns(b)) return;
+  const solve::Blocks& block = w.system.block;
+  part.assign(w.system.n_own(), Part{});
+  solve::for_each_own_block(w.system, [&](std::size_t k, std::size_t b) {
     for (int l = 0; l < kLanes; ++l) {
       const std::size_t lane = b * kLanes + static_cast<std::size_t>(l);
       if (w.active[lane] && !(unconstrained_only && w.constraint.holds(lane)))
-        f(lane, make_address(block[b].first_row, l), block[b].pattern->count_places(), part[b]);
+        f(lane, make_address(block[b].first_row, l), block[b].pattern->count_places(), part[k]);
     }
   });
-  for (const auto& [first, last] : w.system.own)
-    for (std::size_t b = first; b < last; ++b) put(part[b]);
+  for (const Part& p : part) put(p);
 }
 
 /// Sums of N numbers over the cells, and the largest of one number.

@@ -1,5 +1,5 @@
 #pragma once
-/// Partition of the cells among processes. Every process has the positions of all; the work of a
+/// Partition of the cells among processes, by the first points of all cells; the work of a
 /// step is shared by blocks of eight cells. Results do not depend on ownership.
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace acinus::coupling {
 
 /// Partitions the blocks of a world. With too few blocks ownership is whole: every process computes
 /// everything. Collective call.
-solve::Ownership share_blocks(const World& world, std::span<const solve::Block> blocks,
+solve::Ownership share_blocks(const World& world, const solve::Blocks& blocks,
                               const MeasuredCost& cost);
 
 /// Calls f(lineage, lane) for the cells of a block; lanes count [dcm lanes, then cbm cells].

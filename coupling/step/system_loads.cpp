@@ -21,7 +21,7 @@ double middle_of(const World& world, double step) { return time_since_start(worl
 void refresh_params(const World& world, const State& at, double step, Workspace& w) {
   w.dcm_params = world.params.dcm;
   world.params.apparatus.set_params(middle_of(world, step), w.dcm_params);
-  dcm::set_dashpots(at.dcm, w.dcm_params, w.system.block);
+  dcm::set_dashpots(at.dcm, w.dcm_params, w.system.block.front());
 }
 
 /// Copies the positions of own points and of those in contact with them.

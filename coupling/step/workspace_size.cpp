@@ -29,11 +29,10 @@ void size_workspace(const World& world, Workspace& w) {
   const State& s = world.state;
   std::span<const std::uint8_t> constrained = w.constraint.cell;
   if (w.constraint.applies()) constrained = constrained.first(s.dcm.n_lane());
-  std::vector<solve::Block> blocks = dcm::make_blocks(s.dcm, world.params.dcm, constrained);
-  const std::vector<solve::Block> spheres = cbm::make_blocks(s.cbm);
-  blocks.insert(blocks.end(), spheres.begin(), spheres.end());
+  solve::Blocks blocks = dcm::make_blocks(s.dcm, world.params.dcm, constrained);
+  cbm::append_blocks(s.cbm, blocks);
   w.tree_block = blocks.size();
-  if (!s.tree.node.empty()) blocks.push_back({.pattern = &world.params.tree.pattern});
+  if (!s.tree.node.empty()) blocks.append({.pattern = &world.params.tree.pattern});
   w.constraint.anchored_row = anchored_rows(world);
   w.boundary.reset();
   dcm::size_rank_one(s.dcm, world.params.dcm, w.system, world.params.apparatus.count_rank_one());

@@ -21,7 +21,7 @@ namespace acinus::coupling {
 
 /// Measured costs of cells, the weights of the partition.
 struct MeasuredCost {
-  /// (lineage, s per step) of cells, by lineage
+  /// (lineage, s per step) of the cells that were own at the last check, by lineage
   std::vector<std::pair<std::int64_t, double>> of_cell;
   double busy = 0;         ///< s, busy time of this process up to the last check
   std::int64_t steps = 0;  ///< steps accepted since then

@@ -427,7 +427,7 @@ TEST(State, RadiiFollowTheVolume) {
   EXPECT_NEAR(radii_at(s.state, 86400)[0], 15.119, 1e-3);
   EXPECT_NEAR(radii_at(s.state, 86400)[1], 9, 1e-13);
   EXPECT_EQ(center_of(s.state, 1), Vec3(4, 5, 6));
-  EXPECT_EQ(make_blocks(random_spheres(3, 17, 10).state).size(), 3u);
+  EXPECT_EQ(blocks_of(random_spheres(3, 17, 10).state).size(), 3u);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ TEST(MediumFriction, ActsOnWhatTouchesNothing) {
   Spheres s = random_spheres(20, 11, 20);
   s.find();
   solve::System system;
-  solve::set_blocks(system, make_blocks(s.state));
+  solve::set_blocks(system, blocks_of(s.state));
   system.friction_scale = 0.1;
   std::vector<Vec3> pull(11, Vec3(0, 0, 0.3));
   const std::vector<double> radius = s.radius();

@@ -11,6 +11,13 @@
 
 namespace acinus::cbm {
 
+/// Blocks of unknowns of spheres alone.
+inline solve::Blocks blocks_of(const State& state) {
+  solve::Blocks blocks;
+  append_blocks(state, blocks);
+  return blocks;
+}
+
 /// Spheres with everything around them that a step needs.
 struct Spheres {
   State state;
@@ -35,7 +42,7 @@ struct Spheres {
     const std::vector<double> r = radius(), strength = strengths_at(state, time);
     const ContactInput in{state, params, options, {r, strength, mother}, boundary, time, 0};
     refresh_pairs(in, work);
-    solve::set_blocks(system, make_blocks(state));
+    solve::set_blocks(system, blocks_of(state));
     compute_overlaps(in, work);
     contacts.all.clear();
     contacts.close(contact::ContactKind::kInterface);

@@ -1,6 +1,6 @@
 /// Sets joined by one thread and by several.
 
-#include "core/disjoint_sets.hpp"
+#include "core/parallel/disjoint_sets.hpp"
 
 #include <gtest/gtest.h>
 

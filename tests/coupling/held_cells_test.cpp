@@ -45,9 +45,8 @@ World make_held_world() {
 void draw_block_owners(std::uint64_t seed, const World& world, Workspace& w) {
   const auto n = static_cast<unsigned>(world.ranks.size());
   std::mt19937_64 random(seed);
-  std::vector<solve::Block> blocks = dcm::make_blocks(world.state.dcm, std::vector<dcm::Params>(1));
-  const std::vector<solve::Block> spheres = cbm::make_blocks(world.state.cbm);
-  blocks.insert(blocks.end(), spheres.begin(), spheres.end());
+  solve::Blocks blocks = dcm::make_blocks(world.state.dcm, std::vector<dcm::Params>(1));
+  cbm::append_blocks(world.state.cbm, blocks);
   w.system.ownership = {};
   if (n > 1) {
     w.system.ownership.ranks = world.ranks;
@@ -99,7 +98,7 @@ TEST(HeldCells, OfOthersTakeNoMemory) {
   Workspace w;
   draw_block_owners(1, world, w);
   std::ranges::fill(w.system.ownership.owner, world.ranks.size() - 1);  // those of the last process
-  solve::set_blocks(w.system, std::vector<solve::Block>(w.system.block));
+  solve::set_blocks(w.system, solve::Blocks(w.system.block));
   hand_over_cells(world, w);
   const std::size_t bytes = world.state.last_move.size() * sizeof(double);
   const State copy = world.state;

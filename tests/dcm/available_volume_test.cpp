@@ -95,7 +95,9 @@ TEST(AvailableVolume, AMovedBallPutsTheCentroidAtTheCentre) {
       return (geometry::compute_centroid(node, fine_icosphere.triangle) - center).norm();
     };
     EXPECT_LT(shift(ball), 0.004 * kBallRadius) << faces;
-    if (faces == 1) EXPECT_GT(shift(central), 0.01 * kBallRadius);
+    if (faces == 1) {
+      EXPECT_GT(shift(central), 0.01 * kBallRadius);
+    }
   }
 }
 

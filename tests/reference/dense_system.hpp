@@ -151,8 +151,8 @@ inline Eigen::MatrixXd make_zero(const solve::System& s) {
 /// What is kept as small elements: springs, hinges, faces, beams and contacts.
 inline Eigen::MatrixXd make_dense_elements(const solve::System& s) {
   Eigen::MatrixXd a = make_zero(s);
-  for (const solve::Block& block : s.block)
-    for (int l = 0; l < kLanes; ++l) add_elements(a, s, block, l);
+  for (std::size_t b = 0; b < s.block.size(); ++b)
+    for (int l = 0; l < kLanes; ++l) add_elements(a, s, s.block[b], l);
   add_contacts(a, s);
   return a;
 }

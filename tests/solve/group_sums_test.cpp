@@ -88,8 +88,8 @@ Sums find_sums(const System& s, const std::vector<int>& group, std::size_t n_gro
   std::vector<double> largest;
   sums.sum<2>(
       [](Address a, std::size_t, std::array<double, 2>& part) {
-        sum[0] += value_at(a);
-        sum[1] += 1;
+        part[0] += value_at(a);
+        part[1] += 1;
       },
       [&](std::size_t g, const std::array<double, 2>& of_group) { sum[g] = of_group; });
   sums.largest([](Address a, std::size_t) { return std::abs(value_at(a)); }, largest);

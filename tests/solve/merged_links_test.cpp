@@ -140,9 +140,10 @@ TEST(MergedLinks, AreTheSumsOverContactsWorkedOutPlainly) {
   EXPECT_EQ(next, across.size());
 
   ASSERT_EQ(merged.edge.size(), s.spring.size() / kSpringStride * kEdgeStride);
-  for (const Block& block : s.block)
-    for (std::size_t e = 0; e < block.pattern->spring.size(); ++e)
+  for (std::size_t b = 0; b < s.block.size(); ++b)
+    for (std::size_t e = 0; e < s.block[b].pattern->spring.size(); ++e)
       for (int l = 0; l < kLanes; ++l) {
+        const Block block = s.block[b];
         const std::size_t k = block.first_spring + e, lane = l;
         Sum expected;
         const auto number = [&](std::size_t i) {

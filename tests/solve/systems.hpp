@@ -66,9 +66,7 @@ class Places {
   Side side(bool three) {
     const Point p = point();
     const auto row = static_cast<std::size_t>(p) / kLanes;
-    const Block& block = *std::ranges::find_if(s_.block, [&](const Block& b) {
-      return row < b.first_row + static_cast<std::size_t>(b.pattern->n_point);
-    });
+    const Block block = s_.block[s_.block.block_of_row(row)];
     std::vector<Point> room;
     for (std::size_t i = 0; i < static_cast<std::size_t>(block.pattern->n_point); ++i) {
       const auto q = static_cast<Point>((block.first_row + i) * kLanes + p % kLanes);

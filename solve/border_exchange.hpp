@@ -17,13 +17,14 @@ using LaneIndex = std::uint32_t;
 /// Own cell and a cell of another process in contact.
 using BorderPair = std::array<LaneIndex, 2>;
 
-/// Own cells that touch cells of other processes, and those cells: by process, ascending.
-struct BorderCells {
+/// Own cells that touch cells of other processes, whose values are sent, and those cells: by
+/// process, ascending.
+struct BorderExchange {
   ExchangePlan plan;  ///< of `send` and `receive`
   std::vector<LaneIndex> send, receive;
 };
 
-/// Lists the cells of pairs in contact. @param pairs  in any order, repeated or not
-BorderCells list_border_cells(const Ownership& ownership, std::span<const BorderPair> pairs);
+/// Plans an exchange of the cells of pairs in contact. @param pairs  in any order, repeated or not
+BorderExchange plan_border_exchange(const Ownership& ownership, std::span<const BorderPair> pairs);
 
 }  // namespace acinus::solve

@@ -1,4 +1,4 @@
-#include "solve/border_cells.hpp"
+#include "solve/border_exchange.hpp"
 
 #include <utility>
 
@@ -6,7 +6,7 @@
 
 namespace acinus::solve {
 
-BorderCells list_border_cells(const Ownership& ownership, std::span<const BorderPair> pairs) {
+BorderExchange plan_border_exchange(const Ownership& ownership, std::span<const BorderPair> pairs) {
   std::vector<std::pair<int, LaneIndex>> give, get;  // by process
   for (const auto& [own, other] : pairs) {
     const int rank = ownership.owner[other / kLanes];
@@ -15,7 +15,7 @@ BorderCells list_border_cells(const Ownership& ownership, std::span<const Border
   }
   sort_unique(give);
   sort_unique(get);
-  BorderCells border;
+  BorderExchange border;
   for (std::size_t g = 0, k = 0; k < get.size();) {
     ExchangePlan::Peer peer{get[k].first, border.send.size(), 0, border.receive.size(), 0};
     for (; k < get.size() && get[k].first == peer.rank; ++k)
