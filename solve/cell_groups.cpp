@@ -69,7 +69,7 @@ class SharedSets {
 
     std::vector<BorderPair> joined, all;
     for (const auto& [cell, other] : pairs) {
-      if (cell > other) continue;  // the other process tells this pair
+      if (cell > other) continue;  // the other process adds this pair
       const auto at =
           std::ranges::lower_bound(name, other, {}, &std::pair<LaneIndex, LaneIndex>::first);
       joined.push_back({name_of(cell, own), at->second});

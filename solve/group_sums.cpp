@@ -33,7 +33,7 @@ void GroupSums::prepare(const System& system, const CellGroups& groups) {
   count_shared_parts();
 }
 
-/// Tells apart shared groups of few and of many parts.
+/// Sorts shared groups by their number of parts: few or many.
 void GroupSums::count_shared_parts() {
   is_shared_.assign(groups_->n, 0);
   few_.clear();
