@@ -68,10 +68,11 @@ class RigidModes {
     groups_.assign(work.cells.n, {});
     // Vessels that bend, the only rotations, are computed by one process.
     for (const auto& [first, last] : s_.own)
-      for (std::size_t c = first * kLanes; c < last * kLanes; ++c)
-        if (const int g = work.cells.of_cell[c];
-            g >= 0 && s_.block[c / kLanes].pattern->has_rotations())
-          groups_[g].rotates = true;
+      for (std::size_t b = first; b < last; ++b) {
+        if (!s_.block[b].pattern->has_rotations()) continue;
+        for (std::size_t c = b * kLanes; c < (b + 1) * kLanes; ++c)
+          if (const int g = work.cells.of_cell[c]; g >= 0) groups_[g].rotates = true;
+      }
     work.sums.prepare(s_, work.cells);
     work.sums.sum<4>(
         [&](Address a, std::size_t, std::array<double, 4>& sum) {
