@@ -18,9 +18,9 @@ struct NamedAccuracy {
 };
 
 constexpr std::array<NamedAccuracy, 3> kNamed{{
-    {{162, Quadrature::kNodesAndEdges, 300, 0.3, 0.6, 0.05, 0.6}, {0.18, 0.17, 0.85, 0.04}},
-    {{362, Quadrature::kNodes, 120, 0.15, 0.6, 0.02, 0.6}, {0.11, 0.09, 0.79, 0.02}},
-    {{642, Quadrature::kNodesAndEdges, 60, 0.05, 0.6, 0.01, 0.3}, {0.05, 0.05, 0.32, 0.02}},
+    {{162, Quadrature::kNodesAndEdges, 0.5, 300, 0.3, 0.6, 0.05, 0.6}, {0.12, 0.18, 0.85, 0.04}},
+    {{362, Quadrature::kNodes, 0.5, 120, 0.15, 0.6, 0.02, 0.6}, {0.11, 0.09, 0.79, 0.02}},
+    {{642, Quadrature::kNodesAndEdges, 0.35, 60, 0.05, 0.6, 0.01, 0.3}, {0.05, 0.05, 0.32, 0.02}},
 }};
 
 const NamedAccuracy& named(Accuracy accuracy) {
@@ -35,8 +35,11 @@ void for_each_key(const AccuracySettings& a, AnyScene& scene, const F& visit) {
   visit("/time/max_move", scene.numerics.max_move, a.max_move);
   visit("/solver/tolerance", scene.numerics.cg.tolerance, a.solver);
   visit("/contact/skin", scene.contact.skin, a.skin);
-  if (scene.contact.law == dcm::ContactLaw::kCohesive)
+  if (scene.contact.law == dcm::ContactLaw::kCohesive) {
     visit("/contact/quadrature", scene.contact.quadrature, a.quadrature);
+    if (scene.contact.quadrature == a.quadrature)
+      visit("/contact/range", scene.contact.range_factor, a.range);
+  }
   for (auto& [name, type] : scene.cell_types)
     visit("/cell_types/" + name + "/dcm/nodes", type.dcm.nodes, a.nodes);
 }
@@ -68,11 +71,12 @@ std::string describe_accuracy(const Scene& scene) {
     if (field != value) other.push_back(pointer);
   });
   return fmt::format(
-      "accuracy {}: {} nodes a cell, contact points {}, steps to {:g} s of {:g} um each; expected "
-      "errors in tissue: cytosol pressure {:.0f} %, radius of the tissue {:.0f} %, contact area "
-      "{:.0f} %, contact force {:.0f} %{}",
-      name_of_choice(scene.accuracy), a.nodes, name_of_choice(a.quadrature), a.step, a.tolerance,
-      100 * e.cytosol_pressure, 100 * e.radius, 100 * e.contact_area, 100 * e.contact_force,
+      "accuracy {}: {} nodes a cell, contact points {} with a range of {:g} edges, steps to "
+      "{:g} s of {:g} um each; expected errors in tissue: cytosol pressure {:.0f} %, radius of the "
+      "tissue {:.0f} %, contact area {:.0f} %, contact force {:.0f} %{}",
+      name_of_choice(scene.accuracy), a.nodes, name_of_choice(a.quadrature), a.range, a.step,
+      a.tolerance, 100 * e.cytosol_pressure, 100 * e.radius, 100 * e.contact_area,
+      100 * e.contact_force,
       other.empty()
           ? ""
           : fmt::format(". The scene has other values of {}, so its errors are other ones",

@@ -12,6 +12,7 @@ namespace acinus::runs {
 struct AccuracySettings {
   int nodes = 0;  ///< of a deformable cell's mesh
   contact::Quadrature quadrature = contact::Quadrature::kNodesAndEdges;
+  double range = 0;      ///< mean edges, of adhesion, with these contact points
   double step = 0;       ///< s, the longest
   double tolerance = 0;  ///< um, position error of one step
   double max_move = 0;   ///< mean edges, farthest move of a node in a step
@@ -31,11 +32,12 @@ const AccuracySettings& settings_of(Accuracy accuracy);
 /// Expected errors of a named accuracy.   @pre accuracy != kByKey
 const ExpectedErrors& expected_errors(Accuracy accuracy);
 
-/// Sets all keys of an accuracy but the contact points of the paper's law, which keeps its own.
+/// Sets all keys of an accuracy but contact points and range of the paper's law, which keeps its
+/// own.
 void use_settings(const AccuracySettings& settings, Scene& scene);
 
 /// Sets the keys that belong to the scene's accuracy and that its text does not contain. The
-/// paper's law of contact keeps its own contact points.
+/// paper's law of contact keeps its own contact points and range; other contact points keep theirs.
 /// @param report  of the text that the scene was read from
 void apply_accuracy(const Report& report, Scene& scene);
 

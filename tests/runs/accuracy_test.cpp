@@ -23,6 +23,7 @@ Scene read_minimal(const std::vector<std::string>& set) {
 void expect_settings(const Scene& scene, const AccuracySettings& a) {
   EXPECT_EQ(scene.cell_types.at("hepatocyte").dcm.nodes, a.nodes);
   EXPECT_EQ(scene.contact.quadrature, a.quadrature);
+  EXPECT_EQ(scene.contact.range_factor, a.range);
   EXPECT_EQ(scene.contact.skin, a.skin);
   EXPECT_EQ(scene.numerics.max_step, a.step);
   EXPECT_EQ(scene.numerics.tolerance, a.tolerance);
@@ -59,12 +60,15 @@ TEST(Accuracy, ExplicitKeysWin) {
   EXPECT_EQ(scene.numerics.max_step, 7);
   EXPECT_EQ(scene.cell_types.at("hepatocyte").dcm.nodes, 92);
   EXPECT_EQ(scene.contact.quadrature, contact::Quadrature::kThreePoint);
+  EXPECT_EQ(scene.contact.range_factor, 0) << "the range of nodes and edges with other points";
   EXPECT_EQ(scene.numerics.tolerance, settings_of(Accuracy::kFine).tolerance);
+  EXPECT_EQ(read_minimal({"accuracy=fast", "contact.range=0.3"}).contact.range_factor, 0.3);
 }
 
 TEST(Accuracy, LeavesThePointsOfThePapersLaw) {
   const Scene scene = read_minimal({"accuracy=fast", "contact.law=maugis-dugdale"});
   EXPECT_EQ(scene.contact.quadrature, contact::Quadrature::kThreePoint);
+  EXPECT_EQ(scene.contact.range_factor, 0);
   EXPECT_EQ(scene.numerics.max_step, settings_of(Accuracy::kFast).step);
 }
 
