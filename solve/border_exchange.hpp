@@ -3,16 +3,12 @@
 /// the other one needs without asking.
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "solve/system.hpp"
 
 namespace acinus::solve {
-
-/// Index of a lane: block * kLanes + lane.
-using LaneIndex = std::uint32_t;
 
 /// Own cell and a cell of another process in contact.
 using BorderPair = std::array<LaneIndex, 2>;

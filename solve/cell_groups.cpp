@@ -15,9 +15,6 @@ namespace {
 
 /// Joins own cells in contact with each other. @return pairs in contact across processes
 std::vector<BorderPair> join_own_cells(const System& s, DisjointSets& sets) {
-  const auto cell_of = [&](Point p) {
-    return static_cast<LaneIndex>(s.block_of(p) * kLanes + p % kLanes);
-  };
   const auto owns = [&](LaneIndex cell) { return s.ownership.owns(cell / kLanes); };
   const std::size_t n_part = count_threads(s.n_row);
   std::vector<std::vector<BorderPair>> across(s.ownership.is_whole() ? 0 : n_part);
@@ -29,7 +26,7 @@ std::vector<BorderPair> join_own_cells(const System& s, DisjointSets& sets) {
            ++l) {
         const auto [end_a, end_b] = ends(links[l]);
         if (end_b == kNowhere) continue;
-        const BorderPair pair{cell_of(end_a), cell_of(end_b)};
+        const BorderPair pair{s.lane_of(end_a), s.lane_of(end_b)};
         if (pair == last) continue;
         last = pair;
         const auto [a, b] = pair;

@@ -78,10 +78,6 @@ void for_each_link(const System& s, const F& f) {
 
 }  // namespace
 
-LaneIndex CoarseMatrix::lane_at(Point p) const {
-  return static_cast<LaneIndex>(system_->block_of(p) * kLanes + p % kLanes);
-}
-
 void CoarseMatrix::number_cells(std::span<const std::uint8_t> active) {
   number_ = make_zeros<std::uint32_t>(system_->block.size() * kLanes);
   lane_.clear();
@@ -139,7 +135,7 @@ void CoarseMatrix::join_cells(std::span<const std::uint8_t> active) {
   for_each_link(*system_, [&](const auto& l) {
     const Point at_b = point_of(l.b);
     if (at_b == kNowhere) return;
-    const LanePair ends{lane_at(point_of(l.a)), lane_at(at_b)};
+    const LanePair ends{system_->lane_of(point_of(l.a)), system_->lane_of(at_b)};
     if (ends == last || ends[0] == ends[1] || active[ends[0]] == 0 || active[ends[1]] == 0) return;
     last = ends;  // links come sorted by pair of cells
     join(ends[0], ends[1]);
@@ -230,10 +226,10 @@ void CoarseMatrix::add_links(const CoarseInput& in) {
       return owns(lane) && number_of(lane) % n_part == part;
     };
     for_each_link(s, [&](const auto& l) {
-      const LaneIndex a = lane_at(point_of(l.a));
+      const LaneIndex a = system_->lane_of(point_of(l.a));
       const Point at_b = point_of(l.b);
       std::optional<LaneIndex> b;
-      if (at_b != kNowhere && in.active[lane_at(at_b)] != 0) b = lane_at(at_b);
+      if (at_b != kNowhere && in.active[system_->lane_of(at_b)] != 0) b = system_->lane_of(at_b);
       const bool to_a = in.active[a] != 0 && adds_to(a), to_b = b && adds_to(*b);
       if (!to_a && !to_b) return;
       const LinkResponse response(s, l);

@@ -62,7 +62,6 @@ class CoarseMatrix {
   void invert_diagonals();
   template <class T>
   void fetch_cells(std::vector<T>& x) const;
-  LaneIndex lane_at(Point p) const;
   bool owns(LaneIndex lane) const { return system_->ownership.owns(lane / kLanes); }
   std::size_t number_of(LaneIndex lane) const { return number_[lane] - 1; }
   /// Vector from the centre of a cell to a place, over the cell's size; zero for a single point.

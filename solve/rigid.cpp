@@ -178,7 +178,6 @@ class RigidModes {
     return motion.head<3>().norm() + motion.tail<3>().norm() * std::sqrt(g.squared_reach);
   }
   std::size_t block_of(Address a) const { return s_.block.block_of_row(a / kPointStride); }
-  std::size_t cell_of(Address a) const { return block_of(a) * kLanes + a % kPointStride; }
   bool is_first_point(Address a) const { return a / kPointStride == s_.row_of(block_of(a)); }
   /// Adds the resistance of the boundary to the matrices of the groups.
   void add_ties() {
@@ -187,7 +186,7 @@ class RigidModes {
     work_.sums.sum<kUpper>(
         [&](Address a, std::size_t, std::array<double, kUpper>& sum) {
           if (!is_first_point(a)) return;
-          const int tie = work_.tie_of_cell[cell_of(a)];
+          const int tie = work_.tie_of_cell[s_.lane_of(point_at(a))];
           if (tie < 0) return;
           for_each_upper(std::as_const(work_.tie[tie]),
                          [&](std::size_t n, double v, double) { sum[n] += v; });
@@ -207,7 +206,7 @@ class RigidModes {
     for (const auto& [first, last] : s_.own)
       std::fill_n(work_.tie_of_cell.data() + first * kLanes, (last - first) * kLanes, -1);
     op_.for_each_external([&](const Stencil& stencil, const auto& l) {
-      const std::size_t cell = cell_of(stencil.address[0]);
+      const std::size_t cell = s_.lane_of(point_at(stencil.address[0]));
       const int g = work_.cells.of_cell[cell];
       if (g < 0) return;
       Vec3 place = Vec3::Zero();

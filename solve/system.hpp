@@ -49,6 +49,9 @@ inline constexpr int kFaceStride = 6 * kLanes;  ///< g1 g2, g3 = -(g1 + g2): mat
 /// beam: matrix g g^T + h h^T
 inline constexpr int kBeamStride = 12 * kLanes;
 
+/// Index of a lane over all blocks: block * kLanes + lane.
+using LaneIndex = std::uint32_t;
+
 /// Rank-one family: one vector per cell with a non-negative coefficient; adds c g g^T. Covers
 /// blocks [0, n_block).
 struct RankOne {
@@ -78,6 +81,10 @@ struct System {
 
   std::size_t n_dof() const { return n_row * kPointStride; }
   std::size_t block_of(Point p) const { return block.block_of_row(p / kLanes); }
+  /// Lane of the point's cell.
+  LaneIndex lane_of(Point p) const {
+    return static_cast<LaneIndex>(block_of(p) * kLanes + p % kLanes);
+  }
   bool owns(Point p) const { return ownership.is_whole() || ownership.owns(block_of(p)); }
   std::size_t n_own() const {
     std::size_t n = 0;

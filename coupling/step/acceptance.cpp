@@ -44,11 +44,6 @@ double edge_of(const World& world, const Workspace& w, std::size_t lane) {
   return std::ranges::min(world.params.tree.tube, {}, &Tube::radius).radius;
 }
 
-/// Lane index (dcm lanes, then cbm cells) of an address.
-std::size_t lane_at(const Workspace& w, Address a) {
-  return w.system.block.block_of_row(a / kPointStride) * kLanes + a % kLanes;
-}
-
 /// Least share of its area that a face keeps in a step, projected on its normal: faces that shrink
 /// faster are resolved by shorter steps before their normal degenerates.
 constexpr double kLeastArea = 0.25;
@@ -252,8 +247,8 @@ DeepContact describe_contact(const World& world, const Workspace& w, std::size_t
   DeepContact deep;
   deep.inner = kind == contact::ContactKind::kNucleus;
   deep.pair = link.b.exists();
-  deep.a = lane_at(w, solve::address_of(link.a.point[0]));
-  deep.b = deep.pair ? lane_at(w, solve::address_of(link.b.point[0])) : deep.a;
+  deep.a = w.system.lane_of(link.a.point[0]);
+  deep.b = deep.pair ? w.system.lane_of(link.b.point[0]) : deep.a;
   deep.depth = depth_after(world, w, l);
   const bool of_cells =
       kind == contact::ContactKind::kSurface || kind == contact::ContactKind::kInterface;
