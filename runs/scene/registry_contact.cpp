@@ -62,7 +62,7 @@ void describe_contact(Visitor& v, ContactBlock& b) {
                 .meaning = "range of adhesion in mean reference edge lengths",
                 .range = {.low = 0, .high = 2, .low_open = true},
                 .symbol = "h_0",
-                .automatic = "by accuracy, else 0.3 for 3-point, 0.5 for nodes, 0.35 for both",
+                .automatic = "0.3 for 3-point, 0.5 for nodes, 0.35 for nodes-and-edges",
                 .in_law = InLaw::kSetting},
                b.range_factor);
   v.real({.name = "max_depth",

@@ -80,8 +80,7 @@ struct CellType {
   CbmBlock cbm;
 };
 
-/// Contact of surfaces. range_factor = 0, unless set by an accuracy: 0.3 (3-point), 0.5 (nodes),
-/// 0.35 (both).
+/// Contact of surfaces. range_factor = 0: 0.3 (3-point), 0.5 (nodes), 0.35 (both).
 struct ContactBlock : dcm::ContactParams {
   ContactBlock() { range_factor = 0; }
 };
