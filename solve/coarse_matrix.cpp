@@ -226,10 +226,10 @@ void CoarseMatrix::add_links(const CoarseInput& in) {
       return owns(lane) && number_of(lane) % n_part == part;
     };
     for_each_link(s, [&](const auto& l) {
-      const LaneIndex a = system_->lane_of(point_of(l.a));
+      const LaneIndex a = s.lane_of(point_of(l.a));
       const Point at_b = point_of(l.b);
       std::optional<LaneIndex> b;
-      if (at_b != kNowhere && in.active[system_->lane_of(at_b)] != 0) b = system_->lane_of(at_b);
+      if (at_b != kNowhere && in.active[s.lane_of(at_b)] != 0) b = s.lane_of(at_b);
       const bool to_a = in.active[a] != 0 && adds_to(a), to_b = b && adds_to(*b);
       if (!to_a && !to_b) return;
       const LinkResponse response(s, l);
