@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/measures.hpp"
+
 namespace acinus::dcm {
 
 BirthShape make_birth_shape(const geometry::Topology& t, std::span<const Vec3> node, double radius,
@@ -28,6 +30,13 @@ BirthShape make_birth_shape(const geometry::Topology& t, std::span<const Vec3> n
   shape.triangle = std::move(triangle);
   shape.area = area / (t.rest_area * radius * radius * stretch);
   return shape;
+}
+
+double measure_stretch(const BirthShape& shape, const geometry::Topology& topology,
+                       std::span<const Vec3> node, double radius, double time) {
+  const double rest = shape.is_forgotten(time) ? 1 : 1 + shape.weight.at(time) * (shape.area - 1);
+  return geometry::compute_area(node, topology.triangle) /
+         (topology.rest_area * radius * radius * rest);
 }
 
 }  // namespace acinus::dcm

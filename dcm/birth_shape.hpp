@@ -34,4 +34,10 @@ struct BirthShape {
 BirthShape make_birth_shape(const geometry::Topology& topology, std::span<const Vec3> node,
                             double radius, double stretch, const Ramp& weight);
 
+/// Stretch of a surface: its area over the present area of the membrane at rest.
+/// @param shape   birth shape, which is the rest shape until it is forgotten
+/// @param radius  um, reference radius
+double measure_stretch(const BirthShape& shape, const geometry::Topology& topology,
+                       std::span<const Vec3> node, double radius, double time);
+
 }  // namespace acinus::dcm

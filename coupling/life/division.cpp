@@ -60,9 +60,8 @@ MotherCell look_at(const World& world, std::size_t lane) {
   dcm::copy_nodes(s.dcm, lane, m.node);
   m.volume = geometry::compute_volume(m.node, m.topology->triangle);
   m.rest_volume = s.dcm.volume[lane].at(s.clock.time);
-  const double r = sphere_radius(m.rest_volume);
-  m.stretch =
-      geometry::compute_area(m.node, m.topology->triangle) / (m.topology->rest_area * r * r);
+  m.stretch = dcm::measure_stretch(s.dcm.birth[lane], *m.topology, m.node,
+                                   sphere_radius(m.rest_volume), s.clock.time);
   return m;
 }
 

@@ -40,15 +40,6 @@ Due find_due(const State& s, double grid) {
   return crosses_grid(time_of(s) - s.clock.last_step, time_of(s), grid) ? Due::kAll : Due::kYoung;
 }
 
-/// Area over the present rest area of the membrane.
-double find_stretch(const State& s, std::size_t lane, const std::vector<Vec3>& node) {
-  const geometry::Topology& t = topology_of(s, lane);
-  const double radius = reference_radius(s, lane), time = s.clock.time;
-  const dcm::BirthShape& b = s.dcm.birth[lane];
-  const double rest = b.is_forgotten(time) ? 1 : 1 + b.weight.at(time) * (b.area - 1);
-  return geometry::compute_area(node, t.triangle) / (t.rest_area * radius * radius * rest);
-}
-
 /// Mean stretch of the links: total length over total rest length.
 double find_link_stretch(const State& s, std::size_t lane, std::span<const double> ratio) {
   const dcm::BirthShape& b = s.dcm.birth[lane];
@@ -86,7 +77,9 @@ void replace_mesh(const dcm::Params& params, State& s, std::size_t lane,
                   const std::vector<Vec3>& node) {
   std::vector<Vec3> old;
   dcm::copy_nodes(s.dcm, lane, old);
-  const double stretch = find_stretch(s, lane, old), t = s.clock.time;
+  const double t = s.clock.time;
+  const double stretch = dcm::measure_stretch(s.dcm.birth[lane], topology_of(s, lane), old,
+                                              reference_radius(s, lane), t);
   std::vector<double> link = adapt_nucleus(params, lane, old, node, s);
   s.dcm.birth[lane] = dcm::make_birth_shape(topology_of(s, lane), node, reference_radius(s, lane),
                                             stretch, {1, 0, t, t + dcm::kForgetShape});

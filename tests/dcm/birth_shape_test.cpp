@@ -10,6 +10,7 @@
 #include "dcm/birth_shape.hpp"
 #include "dcm/lane_data.hpp"
 #include "dcm/shape/split.hpp"
+#include "geometry/measures.hpp"
 #include "tests/dcm/cells.hpp"
 
 namespace acinus::dcm {
@@ -46,6 +47,17 @@ Cells make_half_spheres(double stretch, const Ramp& weight) {
   }
   c.reset();
   return c;
+}
+
+TEST(BirthShape, StretchIsOverTheAreaAtRest) {
+  const geometry::Topology& t = geometry::shared_icosphere(162);
+  const std::vector<Vec3> half = half_sphere(t);
+  const BirthShape shape = make_birth_shape(t, half, kDaughterRadius, 1.3, {1, 0, 0, 3600});
+  EXPECT_NEAR(measure_stretch(shape, t, half, kDaughterRadius, 0), 1.3, 1e-12);
+  const double area = geometry::compute_area(half, t.triangle),
+               round = t.rest_area * kDaughterRadius * kDaughterRadius;
+  EXPECT_NEAR(measure_stretch(shape, t, half, kDaughterRadius, 3600), area / round, 1e-12)
+      << "forgotten";
 }
 
 /// Deformed cells of which some have a half-forgotten shape of birth with ratios from 0.7 to 1.4.
