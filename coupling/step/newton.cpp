@@ -91,6 +91,7 @@ Status iterate_newton(const World& world, double step, const Assembler& assemble
   solve::gather_rows(w.system, w.move);
   const Equation equation{world, step, assemble};
   Trial trial;
+  trial.friction.constraint = trial.work.constraint = w.constraint;
   size_workspace(world, trial.friction);
   size_workspace(world, trial.work);
   trial.state = world.state;

@@ -96,6 +96,34 @@ TEST(Subworld, ConstrainedCellsDoNotMove) {
   EXPECT_LT(sub.world.state.balance.torque, 1e-9);
 }
 
+// Newton's method solves for the moving cells beside cells at rest, as a linearly implicit step
+// does. If neighbours gave way, moves would be larger.
+TEST(Subworld, NewtonHoldsConstrainedCellsToo) {
+  const World w = make_stepped_block();
+  const auto step_with = [&](Integrator integrator, Subworld& sub) {
+    extract_at_rest(w, kMiddle, find_neighbours(w, kMiddle, 3), sub);
+    sub.world.params.numerics.adaptive = false;
+    sub.world.params.numerics.integrator = integrator;
+    sub.world.params.numerics.tolerance = 1e-6;  // Newton stops at a tenth of it
+    sub.world.state.clock.step = 30;
+    ASSERT_TRUE(take_step(sub.world, sub.work, 30).accepted);
+  };
+  Subworld linear, newton;
+  step_with(Integrator::kLinearlyImplicit, linear);
+  step_with(Integrator::kNewton, newton);
+  double largest = 0, difference = 0;
+  for (std::int64_t id : {2, 7}) {
+    const std::vector<Vec3> a = nodes_of(linear.world.state, id),
+                            b = nodes_of(newton.world.state, id), before = nodes_of(w.state, id);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      largest = std::max(largest, (a[i] - before[i]).norm());
+      difference = std::max(difference, (a[i] - b[i]).norm());
+    }
+  }
+  std::printf("moves %.2e um, off by %.1e of it\n", largest, difference / largest);
+  EXPECT_LT(difference, 0.2 * largest);
+}
+
 // In a step of length h the pulled cells move by v h. In the large world their neighbours give way
 // by (k h / Gamma) of it, which changes what the pulled ones feel by the same factor once more:
 // with friction between cells off, the small world is wrong by O(h^2) relative to the move.
