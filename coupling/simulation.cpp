@@ -9,6 +9,7 @@
 #include "coupling/life/rules.hpp"
 #include "coupling/measure/signals.hpp"
 #include "coupling/sleep/partial_step.hpp"
+#include "coupling/sleep/sleep.hpp"
 #include "coupling/start_up.hpp"
 #include "coupling/step/held_cells.hpp"
 #include "coupling/step/held_contacts.hpp"
@@ -32,6 +33,11 @@ double next_change(const Params& p, double time) {
     if (wall.opens > later) next = std::min(next, wall.opens);
   });
   return next;
+}
+
+/// True if a device changed its action or a wall opened at a time after t = 0, s.
+bool is_change(const Params& p, double time) {
+  return time > kSameTime && next_change(p, time - 3 * kSameTime) < time + kSameTime;
 }
 
 /// Resets step-size control, so that the next step counts as the first.
@@ -64,8 +70,10 @@ double Simulation::time_to_event(const Observer& observer) const {
 }
 
 void Simulation::end_step_of_start_up(const Observer& observer) {
-  const std::string what = update_phase(world_, work_);
-  if (!what.empty() && observer.phase) observer.phase(what);
+  do {  // a phase may have no length
+    const std::string what = update_phase(world_, work_);
+    if (!what.empty() && observer.phase) observer.phase(what);
+  } while (!is_running() && time_to_phase_event(world_) < kSameTime);
   if (!is_running()) return;
   begin_open_spaces(world_);
   if (observer.start) observer.start();
@@ -87,6 +95,7 @@ bool Simulation::run_events(const Observer& observer) {
 StepResult Simulation::take_step(double limit, LastStep& last) {
   last.was_running = is_running();
   last.change = next_change(world_.params, time());
+  if (last.was_running && is_change(world_.params, time())) start_anew(world_.state.clock);
   refresh_signals(world_, work_);
   update_guidance(world_.params, world_.state);
   return advance(world_, work_, awake_, limit);
@@ -99,7 +108,7 @@ bool Simulation::end_step(const StepResult& step, const LastStep& last, const Ob
     end_step_of_start_up(observer);
     return !observer.events_over || observer.events_over();
   }
-  if (time() > last.change - kSameTime) start_anew(world_.state.clock);
+  if (time() > last.change - kSameTime) wake_all(world_);
   return run_events(observer);
 }
 

@@ -69,7 +69,7 @@ void move_counts(Workspace& from, Workspace& to) {
   to.cbm.beyond += std::exchange(from.cbm.beyond, 0);
 }
 
-/// Moves sleepers with their velocity.
+/// Moves sleepers with their velocity; without one they stay.
 void move_sleepers(State& s, double step) {
   if (!has_last_move(s)) return;
   const double ratio = step / s.clock.last_step;
@@ -91,6 +91,7 @@ StepResult pass_time(World& world, double limit) {
   result.accepted = true;
   result.step = std::min(world.params.numerics.max_step, limit);
   if (sleepers_move(world)) move_sleepers(world.state, result.step);
+  start_last_moves(world.state);
   clock.time += result.step;
   clock.last_step = result.step;
   ++clock.accepted;

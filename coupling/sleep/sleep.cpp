@@ -72,6 +72,13 @@ double time_to_sleep_event(const World& world) {
   return time_to_next_interval(time_of(world.state), p.grid);
 }
 
+void wake_all(World& world) {
+  State& s = world.state;
+  if (!world.params.sleep.enabled) return;
+  s.asleep.clear();
+  s.sleep_interval = grid_interval(time_of(s), world.params.sleep.grid);
+}
+
 bool update_sleep(World& world, Workspace& work) {
   State& s = world.state;
   const Sleep& p = world.params.sleep;

@@ -19,6 +19,9 @@ std::vector<double> unbalanced_traction(const World& world, const Workspace& wor
 /// @return false if the process is asked to stop; nothing has changed then
 [[nodiscard]] bool update_sleep(World& world, Workspace& work);
 
+/// Wakes all cells until the next update of sleep, for a sudden change of what holds them.
+void wake_all(World& world);
+
 /// Time to the next update of sleep, s; infinite if no cell may sleep.
 double time_to_sleep_event(const World& world);
 

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "coupling/measure/measure.hpp"
+#include "coupling/simulation.hpp"
 #include "tests/coupling/lives.hpp"
 
 namespace acinus::coupling {
@@ -181,6 +182,36 @@ TEST(Sleep, CellsThatGrowOrAreJustBornStayAwake) {
   w.params.life.rule.emplace_back().until = 0;  // nobody rests any more
   run_for(w, work, 600);
   EXPECT_FALSE(is_asleep(w.state, 2)) << "grows again";
+}
+
+// A capsule that opens lets cells go that were asleep.
+TEST(Sleep, CellsWakeWhenAWallOpens) {
+  World w = make_pressed_clump(true);
+  const double opens = 14 * 3600;  // on the grid of sleep
+  w.params.boundary.capsules[0].opens = opens;
+  Simulation simulation(std::move(w));
+  ASSERT_TRUE(simulation.run_until(opens - 100).ok);
+  const State& s = simulation.world().state;
+  ASSERT_EQ(count_asleep(s), 8);
+  const auto before = places(s);
+  ASSERT_TRUE(simulation.run_until(opens + 300).ok);
+  EXPECT_EQ(count_asleep(s), 0);
+  double moved = 0;
+  for (const auto& [id, x] : places(s)) moved = std::max(moved, (x[0] - before.at(id)[0]).norm());
+  std::printf("moved %.2g um\n", moved);
+  EXPECT_GT(moved, 0.05);
+}
+
+TEST(Sleep, CellsWithoutALastMoveStayWhileTimePasses) {
+  World w = make_pressed_clump(true);
+  SizedWorkspace work(w);
+  run_for(w, work, 12 * 3600);
+  ASSERT_EQ(count_asleep(w.state), 8);
+  w.state.clock.last_step = 0;  // as after a change of a device
+  const auto before = places(w.state);
+  AwakePart awake;
+  for (int k = 0; k < 2; ++k) ASSERT_TRUE(advance(w, work, awake, 30).accepted);
+  EXPECT_EQ(places(w.state), before);
 }
 
 TEST(Sleep, GoesOnFromASavedStateBitForBit) {
