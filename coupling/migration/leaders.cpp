@@ -175,7 +175,9 @@ bool choose_leaders(const Params& params, const State& s, std::span<const double
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
     cells[n_lane + c] = make_polar(m, cbm::center_of(s.cbm, c), cbm_radius[c]);
   for (std::size_t i = 0; i < n; ++i) cells[i].led = leader[i] != 0;
-  leader = find_leaders(m, cells, params.boundary.planes);
+  std::vector<contact::Plane> walls = params.boundary.planes;
+  for (contact::Plane& wall : walls) contact::stop_wall(wall, s.clock.time - s.clock.origin);
+  leader = find_leaders(m, cells, walls);
   return true;
 }
 

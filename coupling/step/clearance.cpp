@@ -38,10 +38,12 @@ bool has_boundary(const World& world, const Box& box) {
   // Vessels and meshes are not tested one by one: cells near them keep the displacement limit.
   if (!boundary.meshes.empty() || !boundary.vessels.network.segment.empty()) return true;
   bool found = false;
+  const Clock& clock = world.state.clock;
+  const double time = wall_time(clock, clock.time);
   const double reach = 0.5 * (box.high - box.low).norm();
   contact::for_each_wall(boundary, [&](auto, auto, const auto& wall) {
     const Vec3 middle = 0.5 * (box.low + box.high);
-    found = found || !(contact::gap_to_wall(wall, middle, world.state.clock.time).gap > reach);
+    found = found || !(contact::gap_to_wall(wall, middle, time).gap > reach);
   });
   return found;
 }

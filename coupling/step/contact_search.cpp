@@ -41,10 +41,8 @@ void search_contacts(const InterfaceInput& in, Workspace& w) {
 }  // namespace
 
 void refresh_contacts(const World& world, const State& at, double end, Workspace& w) {
-  const Clock& clock = world.state.clock;
   const PhaseParams phase = phase_params(world);
-  const InterfaceInput in =
-      contact_input(world, at, phase, clock.phase == Phase::kRun ? end - clock.origin : 0, w);
+  const InterfaceInput in = contact_input(world, at, phase, wall_time(world.state.clock, end), w);
   refresh_lists(in, w);
   search_contacts(in, w);
 }

@@ -142,8 +142,8 @@ OpenSpaces find_open_spaces(const World& world, ObstacleCover& obstacles) {
   }
   if (any(&Substance::outside_obstacles) &&
       (obstacles.time < 0 || walls_change(world.params.boundary))) {
-    obstacles.cover = cover_obstacles(world.params, s.clock.time);
-    obstacles.time = s.clock.time;
+    obstacles.time = wall_time(s.clock, s.clock.time);
+    obstacles.cover = cover_obstacles(world.params, obstacles.time);
   }
   for (const Substance& substance : p.substance) {
     if (!substance.is_kept_out() || spaces.of(substance)->exists()) continue;

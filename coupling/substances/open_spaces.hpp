@@ -13,7 +13,7 @@ namespace acinus::coupling {
 /// Walls, vessels and static meshes on the grid at a time; vessels as they are at rest.
 struct ObstacleCover {
   substances::Cover cover;
-  double time = -1;  ///< s; -1: none yet
+  double time = -1;  ///< s after t = 0; -1: none yet
 };
 
 /// Open spaces of the substances of a world.

@@ -123,6 +123,11 @@ struct Clock {
   EventsDue due = EventsDue::kNone;
 };
 
+/// Time of walls at a clock time, s: they start to move at t = 0.
+inline double wall_time(const Clock& clock, double time) {
+  return clock.phase == Phase::kRun ? time - clock.origin : 0;
+}
+
 /// Largest imbalance |sum| / sum |.| over all steps.
 struct Balance {
   double momentum = 0;  ///< of all pair forces, friction included; over all forces

@@ -153,6 +153,22 @@ TEST(OpenSpaces, WallsAndMeshesAreBarriers) {
   EXPECT_GT(field.secreted, 0);
 }
 
+TEST(OpenSpaces, WallsAreWhereTheyAreAtTheTimeSinceTheStart) {
+  World w = make_test_world({{Vec3(40, 100, 100), false}}, 60);
+  Substance& s = add_substance(w, 0);
+  s.outside_obstacles = true;
+  contact::Plane plane;
+  plane.point = Vec3(100, 0, 0);
+  plane.normal = Vec3(-1, 0, 0);
+  plane.speed = -10.0 / 3600;  // toward the cell's far side: the space grows
+  plane.travel = 1000;
+  w.params.boundary.planes.push_back(plane);
+  w.state.clock.time = 5 * 3600;
+  w.state.clock.origin = 4 * 3600;  // after four hours of start-up
+  begin_open_spaces(w);
+  EXPECT_NEAR(open_volume(w), 110.0 * 200 * 200 - sphere_volume(12), 2e-3 * 4e6);
+}
+
 TEST(OpenSpaces, VesselsFeedThroughTheirWallsFromOutside) {
   World w = make_test_world({{Vec3(40, 40, 40), false}}, 60);
   Substance& s = add_substance(w, 0);
