@@ -64,13 +64,7 @@ void begin_start_up(World& world, double initial_radius) {
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) {
     if (!s.dcm.active(l)) continue;
     const double full = s.dcm.volume[l].to;
-    const double shrink = std::cbrt(initial_volume / full);
-    const Vec3 center = dcm::cell_center(s.dcm, l);
-    for (int i = 0; i < s.dcm.group[l / kLanes].n_point(); ++i) {
-      const Address a = dcm::node_address(s.dcm, l, i);
-      store_point(s.dcm.position.data(), a,
-                  center + shrink * (load_point(s.dcm.position.data(), a) - center));
-    }
+    dcm::scale_cell(std::cbrt(initial_volume / full), l, s.dcm);
     s.dcm.volume[l] = {initial_volume, full, 0, end};
   }
   for (Ramp& v : s.cbm.volume) v = {initial_volume, v.to, 0, end};
@@ -114,6 +108,11 @@ std::string update_phase(World& world, Workspace& work) {
   const double checks = in_phase / kSettleCheckInterval;
   if (!capped && std::abs(checks - std::round(checks)) * kSettleCheckInterval > 1e-6) return {};
   if (in_phase < 1e-6 && !capped) return {};
+  if (p.max_settle < kSameTime) {
+    enter(c, Phase::kRun);
+    c.origin = c.time;
+    return fmt::format("t = 0 after {:.2f} h of start-up, without settling", c.time / 3600);
+  }
   complete_cells(world.ranks, world.state);
   const double speed = largest_speed(world.state), drift = pressure_drift(world, work);
   const bool rest = speed < p.speed_tolerance && drift < p.pressure_tolerance;

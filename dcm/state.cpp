@@ -145,6 +145,15 @@ Vec3 cell_center(const State& s, std::size_t lane) {
   return sum / t.rest_area;
 }
 
+void scale_cell(double factor, std::size_t lane, State& s) {
+  const Vec3 center = cell_center(s, lane);
+  for (int i = 0; i < s.group[lane / kLanes].n_point(); ++i) {
+    const Address a = node_address(s, lane, i);
+    store_point(s.position.data(), a,
+                center + factor * (load_point(s.position.data(), a) - center));
+  }
+}
+
 void copy_nodes(const State& s, std::size_t lane, std::vector<Vec3>& node) {
   const int n = s.group[lane / kLanes].topology->n_node;
   node.resize(n);

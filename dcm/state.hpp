@@ -88,6 +88,9 @@ inline Address node_address(const State& state, std::size_t lane, int node) {
 /// Mean of the nodes weighted by their share of the rest surface.
 Vec3 cell_center(const State& state, std::size_t lane);
 
+/// Scales all points of a cell about its centre.
+void scale_cell(double factor, std::size_t lane, State& state);
+
 /// Copies the nodes of one cell's cortex out of the lanes.
 void copy_nodes(const State& state, std::size_t lane, std::vector<Vec3>& node);
 /// Sets the nodes of one cell's cortex.   @param node  [n_node] um

@@ -20,13 +20,7 @@ void grow_at_once(coupling::State& s) {
   for (std::size_t lane = 0; lane < s.dcm.n_lane(); ++lane) {
     if (!s.dcm.active(lane)) continue;
     const double from = s.dcm.volume[lane].from, to = s.dcm.volume[lane].to;
-    const double stretch = std::cbrt(to / from);
-    const Vec3 center = dcm::cell_center(s.dcm, lane);
-    for (int i = 0; i < s.dcm.group[lane / kLanes].n_point(); ++i) {
-      const Address a = dcm::node_address(s.dcm, lane, i);
-      store_point(s.dcm.position.data(), a,
-                  center + stretch * (load_point(s.dcm.position.data(), a) - center));
-    }
+    dcm::scale_cell(std::cbrt(to / from), lane, s.dcm);
     s.dcm.volume[lane].from = to;
   }
   for (auto& volume : s.cbm.volume) volume.from = volume.to;

@@ -37,6 +37,23 @@ TEST_F(StartOverlap, IsAWarningWithAdviceThatWorks) {
   }
 }
 
+TEST_F(StartOverlap, PhasesOfAStartUpMayHaveNoLength) {
+  write("any_age.json", kAnyAge);
+  const auto start = [&](const Words& changes) {
+    Words more{"--overwrite", "--set", "start_up.enabled=true"};
+    for (const std::string& change : changes) more.insert(more.end(), {"--set", change});
+    Words words = run_words("any_age.json", "b", more);
+    std::erase(words, "--quiet");
+    const Outcome outcome = call(words);
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    return outcome.text;
+  };
+  EXPECT_CONTAINS(start({"start_up.adhesion_ramp=0 min"}), "full adhesion after 0.08 h");
+  EXPECT_CONTAINS(start({"start_up.max_duration=0 h"}), "t = 0 after 0.12 h of start-up, without");
+  EXPECT_CONTAINS(start({"start_up.adhesion_ramp=0 min", "start_up.max_duration=0 h"}),
+                  "t = 0 after 0.08 h of start-up, without settling");
+}
+
 /// Deformable cells whose centres may be 0.6 diameters apart.
 constexpr const char* kFilled = R"({
   "time": {"end": "30 s", "step": "30 s"},
