@@ -37,7 +37,7 @@ double growth_factor(const Inhibition& p, const Crowding& now) {
       return falls(now.density);
     case InhibitedBy::kVolume: {
       const double x = std::pow(now.relative_volume / p.threshold, p.power);
-      return x / (1 + x);
+      return std::isinf(x) ? 1 : x / (1 + x);
     }
   }
   return 1;

@@ -76,7 +76,7 @@ void bear_spheres(World& world, const Cell& mother, Newborn& born, LifeReport& r
     born.sphere_cycle.push_back(inherit(world, mother, id));
     born.sphere.push_back({id, type, place, daughters.radius,
                            cbm::draw_young(world.params.cbm[type], world.params.life.seed, id),
-                           s.cbm.pull[mother.at], daughters.strength});
+                           0.5 * s.cbm.pull[mother.at], daughters.strength});
   }
   report.events.push_back(
       {EventKind::kDivision, {parent, s.next_lineage - 2, s.next_lineage - 1}, describe(axis)});
@@ -92,7 +92,7 @@ void bear_shells(World& world, const Cell& mother, const DaughterMeshes& daughte
     const std::int64_t id = s.next_lineage++;
     born.shell_cycle.push_back(inherit(world, mother, id));
     born.shell.push_back({id, group.type, group.topology, Vec3::Zero(), radius,
-                          s.dcm.pull[mother.at], Mat3::Identity(), group.nucleus});
+                          0.5 * s.dcm.pull[mother.at], Mat3::Identity(), group.nucleus});
     born.node.push_back(node);
     born.stretch.push_back(daughters.stretch);
     born.tension.push_back(dcm::mean_tension(s.dcm.tension[mother.at]));

@@ -10,6 +10,9 @@
 namespace acinus::coupling {
 namespace {
 
+/// Relative difference of concentration across a leader at which it has half its force.
+constexpr double kLeaderSensitivity = 0.01;
+
 /// Direction of a gradient, its length the share of the full effect.
 Vec3 sense(const substances::VoxelGrid& grid, const std::vector<double>& field, const Vec3& center,
            double radius, double sensitivity) {
@@ -37,7 +40,8 @@ bool has_measured_signal(const RuleParams& p) {
 }
 
 bool acts_on(const SignalRule& r, Behaviour behaviour, int type) {
-  return r.behaviour == behaviour && (r.type < 0 || r.type == type);
+  return r.behaviour == behaviour &&
+         (r.type < 0 || r.type == type || (r.lysing_type >= 0 && r.lysing_type == type));
 }
 
 double age_of(const State& s, const Cell& c) {
@@ -108,8 +112,8 @@ void update_guidance(const Params& p, State& s) {
       return s.substance[substance].concentration;
     };
     if (fields.leader_signal >= 0)
-      s.guidance[c.index].heading = sense(fields.grid, field(fields.leader_signal), center, radius,
-                                          fields.leader_sensitivity);
+      s.guidance[c.index].heading =
+          sense(fields.grid, field(fields.leader_signal), center, radius, kLeaderSensitivity);
     for (std::size_t k = 0; k < rules.rule.size(); ++k) {
       const SignalRule& r = rules.rule[k];
       const auto response = [&] {

@@ -44,6 +44,7 @@ struct SignalRule {
   Behaviour behaviour = Behaviour::kGrowth;
   bool decreases = false;  ///< the response falls with the signal
   int type = -1;           ///< cell type; -1: all
+  int lysing_type = -1;    ///< type of its cells in lysis; -1: the same
   double half_max = 1;     ///< in the unit of the signal
   double power = 4;
   /// kSecretion, kUptake: index of the substance that is exchanged; kChemotaxis: of the one whose

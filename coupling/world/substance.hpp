@@ -43,7 +43,6 @@ struct SubstanceParams {
   double longest_step = 0;  ///< s; 0: the step of the tissue
   double tolerance = 1e-6;
   int leader_signal = -1;  ///< substance whose gradient leaders follow; -1: toward the vein axis
-  double leader_sensitivity = 0.01;
   bool exists() const { return !substance.empty(); }
 };
 

@@ -25,7 +25,8 @@ int number_of_type(const Scene& scene, const std::string& name) {
                             std::distance(scene.cell_types.begin(), scene.cell_types.find(name)));
 }
 
-coupling::SignalRule make_rule(const Scene& scene, const SignalRuleEntry& entry) {
+coupling::SignalRule make_rule(const Scene& scene, const coupling::LifeParams& life,
+                               const SignalRuleEntry& entry) {
   coupling::SignalRule rule = entry;
   if (rule.signal == Signal::kConcentration)
     rule.substance = number_of_substance(scene, entry.name);
@@ -34,6 +35,7 @@ coupling::SignalRule make_rule(const Scene& scene, const SignalRuleEntry& entry)
   else if (rule.behaviour == Behaviour::kChemotaxis)
     rule.of = rule.substance;
   rule.type = number_of_type(scene, entry.cell_type);
+  if (rule.type >= 0) rule.lysing_type = life.type[rule.type].death.type;
   rule.partner = number_of_type(scene, entry.other);
   return rule;
 }
@@ -91,11 +93,12 @@ std::string describe_rule(const Scene& scene, const SignalRuleEntry& r) {
                      r.power);
 }
 
-coupling::RuleParams build_rules(const Scene& scene, Notes& notes) {
+coupling::RuleParams build_rules(const Scene& scene, const coupling::LifeParams& life,
+                                 Notes& notes) {
   coupling::RuleParams p;
   p.axis_point = scene.axis_point;
   for (std::size_t k = 0; k < scene.rules.size(); ++k) {
-    p.rule.push_back(make_rule(scene, scene.rules[k]));
+    p.rule.push_back(make_rule(scene, life, scene.rules[k]));
     notes.info.push_back(fmt::format("rules.{}: {}", k, describe_rule(scene, scene.rules[k])));
   }
   return p;

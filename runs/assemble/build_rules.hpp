@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "coupling/world/cycle.hpp"
 #include "coupling/world/signal.hpp"
 #include "runs/assemble/notes.hpp"
 #include "runs/scene/scene.hpp"
@@ -13,7 +14,10 @@ namespace acinus::runs {
 /// 4".
 std::string describe_rule(const Scene& scene, const SignalRuleEntry& rule);
 
-/// Constants of the rules.   @param notes  receives each in words
-coupling::RuleParams build_rules(const Scene& scene, Notes& notes);
+/// Constants of the rules.
+/// @param life   of build_life(), with the types of cells in lysis
+/// @param notes  receives each in words
+coupling::RuleParams build_rules(const Scene& scene, const coupling::LifeParams& life,
+                                 Notes& notes);
 
 }  // namespace acinus::runs

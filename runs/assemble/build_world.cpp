@@ -213,7 +213,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   }
   build_corrections(scene, p.cbm, built.notes);
   build_life(scene, p, built.type_names);
-  p.rules = build_rules(scene, built.notes);
+  p.rules = build_rules(scene, p.life, built.notes);
   note_late_rules(scene, built.notes);
   note_leaders_without_vein(scene, built.notes);
   set_params(scene, p);

@@ -44,6 +44,7 @@ TEST(CellCycle, FactorHasTheLimitsOfAHillFunction) {
   EXPECT_NEAR(growth_factor(volume, {5, 1.6}), 16.0 / 17, kCycleRoundOff);
   EXPECT_LT(growth_factor(volume, {5, 0.08}), 1.01e-4);
   EXPECT_GT(growth_factor(volume, {5, 8}), 1 - 1.01e-4);
+  EXPECT_EQ(growth_factor({InhibitedBy::kVolume, 5e-4, 100}, {5, 1}), 1) << "x^100 overflows";
   EXPECT_EQ(growth_factor({InhibitedBy::kPressure, 0.2, 1}, {0.4}), 1.0 / (1 + 0.4 / 0.2));
 }
 

@@ -67,6 +67,18 @@ TEST(Substances, HillFunctionsRiseAndFall) {
   EXPECT_EQ(signal_response(r, 1), 1);
 }
 
+TEST(Substances, RulesOfATypeActOnItsCellsInLysis) {
+  SignalRule r;
+  r.behaviour = Behaviour::kAdhesion;
+  r.type = 0;
+  EXPECT_TRUE(acts_on(r, Behaviour::kAdhesion, 0));
+  EXPECT_FALSE(acts_on(r, Behaviour::kAdhesion, 2)) << "another type";
+  r.lysing_type = 2;
+  EXPECT_TRUE(acts_on(r, Behaviour::kAdhesion, 2));
+  EXPECT_FALSE(acts_on(r, Behaviour::kAdhesion, 1));
+  EXPECT_FALSE(acts_on(r, Behaviour::kMotility, 2));
+}
+
 TEST(Substances, GrowthFollowsTheSignal) {
   World w = make_living_world({{Vec3(40, 100, 100), false}, {Vec3(160, 100, 100), true}});
   add_ramp(w, 0, 10);
