@@ -1,6 +1,7 @@
 /// Commands `acinus explain` and `acinus schema`: keys of scenes, studies and inferences,
 /// observables.
 
+#include <algorithm>
 #include <memory>
 
 #include "acinus_version.hpp"
@@ -26,14 +27,15 @@ int explain(const std::string& key, bool markdown) {
     fmt::print("{}", runs::explain_markdown());
     return 0;
   }
-  if (const std::string measured = runs::explain_observable(key); !measured.empty()) {
-    fmt::print("{}", measured);
-    return 0;
-  }
   const std::string block = key.substr(0, key.find('.'));
   const std::vector<runs::Entry>& entries = block == "study"       ? runs::study_entries()
                                             : block == "inference" ? runs::inference_entries()
                                                                    : runs::all_entries();
+  if (const std::string measured = runs::explain_observable(key); !measured.empty()) {
+    fmt::print("{}", measured);
+    if (std::ranges::find(entries, key, &runs::Entry::short_path) == entries.end()) return 0;
+    fmt::print("\n");
+  }
   const bool all = key.empty() || key == "study" || key == "inference";
   fmt::print("{}", all ? runs::explain_all(entries) : runs::explain_key(key, entries));
   return 0;

@@ -8,6 +8,7 @@
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
 #include "runs/assemble/law_parameters.hpp"
+#include "runs/scene/accuracy.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 
 namespace acinus::runs {
@@ -40,11 +41,15 @@ std::string describe_law(const std::string& file) {
 }
 
 std::string find_shipped_law(const Scene& scene, const CellType& type) {
-  // Shipped laws were calibrated with the default settings of contact. Quadratures agree to 8 % of
-  // the modulus, less than a law errs in other tissue (docs/science/calibration.md).
+  // Shipped laws were calibrated with the default settings of contact. Contact points, and the
+  // range that an accuracy sets with them, change the modulus less than a law errs in other tissue
+  // (docs/science/calibration.md).
   const ContactBlock defaults;
   ContactBlock contact = scene.contact;
   contact.quadrature = defaults.quadrature;
+  if (scene.accuracy != Accuracy::kByKey &&
+      contact.range_factor == settings_of(scene.accuracy).range)
+    contact.range_factor = defaults.range_factor;
   if (law_settings(contact) != law_settings(defaults)) return "";
   const LawParameters here = law_parameters(scene, type);
   for (const std::string& file : shipped_laws()) {

@@ -178,9 +178,9 @@ void describe_scene(Visitor& v, Scene& s) {
   choice(v,
          {.name = "accuracy",
           .meaning = "mesh, contact points, time step and solver that belong together, for tissue: "
-                     "sets dcm.nodes of all types, contact.quadrature, contact.skin, time.step, "
-                     "time.tolerance, time.max_move and solver.tolerance "
-                     "where the scene does not; by-key leaves their defaults",
+                     "sets dcm.nodes of all types, contact.quadrature, contact.range, "
+                     "contact.skin, time.step, time.tolerance, time.max_move and "
+                     "solver.tolerance where the scene does not; by-key leaves their defaults",
           .affects = Affects::kNothing,  // of the keys it sets
           .compared = false},
          s.accuracy);

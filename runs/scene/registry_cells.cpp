@@ -199,7 +199,7 @@ void describe_cell(Visitor& v, CellEntry& b) {
        .meaning = "the mesh of a DCM cell is turned at random, as the seed says; false = as it is"},
       b.random_orientation);
   v.vector({.name = "pull",
-            .meaning = "constant force spread over the cell",
+            .meaning = "constant force spread over the cell; its daughters share it",
             .dimension = kForce,
             .unit = "nN"},
            b.pull);
@@ -351,7 +351,13 @@ void describe_cell_type(Visitor& v, CellType& b) {
 }
 
 void describe_cells(Visitor& v, CellsBlock& b) {
-  choice(v, {.name = "source", .meaning = "where the cells come from"}, b.source);
+  choice(v,
+         {.name = "source",
+          .meaning = "where the cells come from. list: one by one; clump: a ball cut from a "
+                     "lattice round the origin; box: a cubic lattice round the origin; fill: "
+                     "random places in a box; lobule: between the sinusoids of the lobule; "
+                     "meshes: closed surfaces of a file"},
+         b.source);
   choice(v,
          {.name = "model",
           .meaning = "model of the cells; zoom: DCM inside the zoom regions, spheres elsewhere",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <set>
 
 #include "core/spelling.hpp"
@@ -246,6 +247,16 @@ void check_boundary(const Scene& scene, Report& report) {
     report.add_relation({"/capsule/min_radius", "/capsule/speed"},
                         quoted_length(capsule.min_radius),
                         "must be > 0 um for a capsule that shrinks");
+  } else if (!scene.cell_types.empty()) {
+    const auto largest = std::ranges::max_element(
+        scene.cell_types, {}, [](const auto& type) { return type.second.radius; });
+    const bool shrinks = capsule.speed > 0;
+    const double least = shrinks ? capsule.min_radius : capsule.radius;
+    if (least <= largest->second.radius)
+      report.add_relation({shrinks ? "/capsule/min_radius" : "/capsule/radius", "/cell_types"},
+                          quoted_length(least),
+                          fmt::format("must exceed the radius of \"{}\" cells, {}", largest->first,
+                                      quoted_length(largest->second.radius)));
   }
 }
 

@@ -46,6 +46,9 @@ TEST(ShippedLaws, FitTheCellsOfTable1) {
   EXPECT_EQ(name_of_law(scene_with(types(R"("adhesion": "1e-5 J/m^2", "radius": "12 um")") +
                                    R"(, "contact": { "quadrature": "nodes-and-edges" })")),
             "hepatocyte_1e-5");
+  EXPECT_EQ(
+      name_of_law(scene_with(types(R"("adhesion": "1e-5 J/m^2")") + R"(, "accuracy": "fast")")),
+      "hepatocyte_1e-5");
 }
 
 TEST(ShippedLaws, DoNotFitOtherCellsOrAnotherLawOfContact) {
