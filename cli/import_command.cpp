@@ -26,7 +26,7 @@ struct ImportArguments {
 
 imaging::ImportOptions options_of(const ImportArguments& a) {
   imaging::ImportOptions o = a.import;
-  if (!a.voxel.empty()) o.read.voxel = parse_voxel("--voxel", a.voxel);
+  if (!a.voxel.empty()) o.read.voxel = parse_voxel(a.voxel);
   if (!a.unit.empty()) o.read.unit = quantity_of("--unit", a.unit, kLength);
   if (!a.smallest.empty()) {
     constexpr Dimension kVolume{3, 0, 0};

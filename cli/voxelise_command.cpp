@@ -27,7 +27,7 @@ int run(const VoxeliseArguments& a) {
   set_threads(a.threads > 0 ? a.threads : processor_count());
   runs::VoxeliseRun o = a.voxelise;
   o.vessels = !a.no_vessels;
-  o.how.voxel = parse_voxel("--voxel", a.voxel);
+  o.how.voxel = parse_voxel(a.voxel);
   if (!a.blur.empty()) o.how.blur = quantity_of("--blur", a.blur, kLength);
   const runs::RunImage made = runs::voxelise_run(o);
   imaging::write_image(a.out, made.cells.image);

@@ -27,7 +27,7 @@ double gap_to_static_mesh(const StaticMesh& m, const Vec3& x, double enough) {
 
 }  // namespace
 
-double nearest_gap(const Boundary& boundary, const Vec3& x, double time, std::string* name) {
+double nearest_gap(const Boundary& boundary, const Vec3& x, std::string* name) {
   double nearest = std::numeric_limits<double>::infinity();
   auto look = [&](double gap, auto label) {
     if (gap >= nearest) return;
@@ -35,7 +35,7 @@ double nearest_gap(const Boundary& boundary, const Vec3& x, double time, std::st
     if (name) *name = label();
   };
   for_each_wall(boundary, [&](auto, auto, const auto& wall) {
-    look(gap_to_wall(wall, x, time).gap, [&] { return wall_label(wall); });
+    look(gap_to_wall(wall, x, 0).gap, [&] { return wall_label(wall); });
   });
   const auto& network = boundary.vessels.network;
   for (int s = 0; s < static_cast<int>(network.segment.size()); ++s)

@@ -7,11 +7,9 @@
 
 namespace acinus::contact {
 
-/// Gap to the nearest wall, vessel or static mesh, um: negative where cells may not be, infinite
-/// without obstacles. Cost: linear in the obstacles.
-/// @param time  s since t = 0, at which moving walls are evaluated
+/// Gap to the nearest wall, vessel or static mesh at t = 0, um: negative where cells may not be,
+/// infinite without obstacles. Cost: linear in the obstacles.
 /// @param name  receives the nearest obstacle's name in messages; may be null
-double nearest_gap(const Boundary& boundary, const Vec3& x, double time,
-                   std::string* name = nullptr);
+double nearest_gap(const Boundary& boundary, const Vec3& x, std::string* name = nullptr);
 
 }  // namespace acinus::contact

@@ -11,7 +11,6 @@
 namespace acinus::imaging {
 namespace {
 
-constexpr std::uint8_t kDeformable = 0, kSphereKind = 1;  // io::Frame::kind
 constexpr int kSphereNodes = 642;
 
 Vec3 point_of(const io::Frame& f, std::int64_t k) {
@@ -25,7 +24,7 @@ CellSurfaces frame_surfaces(const io::Frame& f) {
   CellSurfaces out;
   std::map<std::pair<std::int64_t, std::int64_t>, int> number;  // of a node among those of a cell
   for (std::size_t t = 0; t < f.triangle.size(); ++t) {
-    if (f.kind[t] != kDeformable) continue;
+    if (f.kind[t] != io::kShell) continue;
     geometry::Surface& s = out[f.cell_id[t]];
     std::array<int, 3> corner{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -41,7 +40,7 @@ CellSurfaces frame_surfaces(const io::Frame& f) {
     if (field.name != "radius") continue;
     for (std::int64_t k = 0; k < f.n_sphere; ++k) {
       const std::size_t at = f.triangle.size() + k;
-      if (f.kind[at] != kSphereKind) continue;
+      if (f.kind[at] != io::kSphere) continue;
       geometry::Surface s;
       s.triangle = ball.triangle;
       for (const Vec3& x : ball.rest)

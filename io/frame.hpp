@@ -39,6 +39,9 @@ struct FrameTables {
   Table contacts;   ///< rows of /contacts: one per contact of cells, if asked for
 };
 
+/// Kind of a triangle or vertex of a frame; boundary: vessels, pipettes, rigid meshes.
+enum FrameKind : std::uint8_t { kShell, kSphere, kBoundary, kNucleus };
+
 /// Frame of a run. Points: mesh nodes first, then sphere centres. Cells: triangles first, then one
 /// vertex per sphere.
 struct Frame : FrameTables {
@@ -49,9 +52,8 @@ struct Frame : FrameTables {
   std::vector<std::array<std::int64_t, 3>> triangle;  ///< indices into mesh nodes, this frame only
   std::vector<Field> point_data;                      ///< rows: points
   std::vector<std::int64_t> cell_id;  ///< [n_triangle + n_sphere] lineage id, -1 for boundary
-  std::vector<std::uint8_t>
-      kind;  ///< [n_triangle + n_sphere] 0 DCM, 1 CBM, 2 vessel or wall, 3 nucleus
-  std::vector<Field> cell_data;  ///< rows: triangles, then spheres
+  std::vector<std::uint8_t> kind;     ///< [n_triangle + n_sphere] FrameKind
+  std::vector<Field> cell_data;       ///< rows: triangles, then spheres
 };
 
 /// Named scalar of a time series sample.

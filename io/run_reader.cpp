@@ -122,10 +122,6 @@ std::map<std::string, std::vector<double>> RunReader::series() const {
   return read_samples(File::open(path_, Access::kRead), kSeries, counts_.series);
 }
 
-std::map<std::string, std::string> RunReader::series_unit() const {
-  return read_units(path_, kSeries);
-}
-
 std::map<std::string, std::vector<double>> RunReader::observables() const {
   return read_samples(File::open(path_, Access::kRead), kObservables, counts_.observable);
 }

@@ -22,9 +22,8 @@ class RunReader {
   Frame frame(int k) const;
   /// Rows of /cells of frame k alone.
   Table cells(int k) const;
-  /// Series by name, [n_row] values each; see series_unit().
+  /// Series by name, [n_row] values each.
   std::map<std::string, std::vector<double>> series() const;
-  std::map<std::string, std::string> series_unit() const;
   /// Observables by name; empty where a file has none.
   std::map<std::string, std::vector<double>> observables() const;
   std::map<std::string, std::string> observable_unit() const;

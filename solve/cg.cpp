@@ -5,7 +5,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "core/parallel/arrays.hpp"
+#include "core/parallel/make_room.hpp"
 #include "core/parallel/stop.hpp"
 
 namespace acinus::solve {

@@ -56,9 +56,6 @@ class CoarseMatrix {
   void join_cells(std::span<const std::uint8_t> active);
   void add_cells(const Operator& op, const CoarseInput& in);
   void add_links(const CoarseInput& in);
-  template <class Links, class EndsOf>
-  void add_links_to(std::size_t part, std::size_t n_part, const Links& links, const EndsOf& ends_of,
-                    std::span<const std::uint8_t> active);
   void invert_diagonals();
   template <class T>
   void fetch_cells(std::vector<T>& x) const;

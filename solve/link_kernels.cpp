@@ -27,7 +27,6 @@ ACINUS_INLINE bool exists(const PointLink& l) { return l.b != kNowhere; }
 template <class T>
 ACINUS_INLINE Four<T> gather(const Side& s, const Packed<T>* x) {
   const Four<T> last = load4(x + s.point[2]);
-  if (s.is_single()) return last;
   const T w0 = static_cast<T>(s.weight[0]), w1 = static_cast<T>(s.weight[1]);
   return last + w0 * (load4(x + s.point[0]) - last) + w1 * (load4(x + s.point[1]) - last);
 }
@@ -39,10 +38,6 @@ ACINUS_INLINE Four<T> gather(Point p, const Packed<T>* x) {
 /// Distributes a force over the points of a side; their shares add up to it exactly.
 template <class T>
 ACINUS_INLINE void scatter(const Side& s, Four<T> f, Packed<T>* y) {
-  if (s.is_single()) {
-    add4(y, s.point[2], f);
-    return;
-  }
   const Four<T> f0 = static_cast<T>(s.weight[0]) * f, f1 = static_cast<T>(s.weight[1]) * f;
   add4(y, s.point[0], f0);
   add4(y, s.point[1], f1);

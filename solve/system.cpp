@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/parallel/arrays.hpp"
+#include "core/parallel/make_room.hpp"
 
 namespace acinus::solve {
 namespace {
@@ -93,7 +93,7 @@ void clear_loads(System& system) {
   clear_own(system, system.spring, &Block::first_spring, kSpringStride);
   for (RankOne& r : system.rank_one) {
     clear_own_rows(system, kPointStride, r.vector);
-    clear_numbers(r.coefficient);
+    for_each_number(r.coefficient.size(), [&](std::size_t k) { r.coefficient[k] = 0; });
   }
   system.links.clear();
 }

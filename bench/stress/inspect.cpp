@@ -13,14 +13,10 @@
 #include "coupling/measure/audit.hpp"
 #include "coupling/world/cell.hpp"
 #include "geometry/measures.hpp"
+#include "runs/session/soundness.hpp"
 
 namespace acinus::bench {
 namespace {
-
-constexpr std::uint8_t kShell = 0;
-
-/// Additional overlap of a surface between contact points, as a share of the mean edge length.
-constexpr double kOverlapBetweenPoints = 0.25;
 
 struct Mesh {
   std::int64_t id = 0;
@@ -49,10 +45,11 @@ bool all_finite(const io::Frame& f) {
 std::vector<Mesh> meshes_of(const io::Frame& f) {
   std::vector<Mesh> meshes;
   std::size_t t = 0;
-  while (t < f.triangle.size() && f.kind[t] == kShell) {
+  while (t < f.triangle.size() && f.kind[t] == io::kShell) {
     const std::size_t first = t;
     std::int64_t low = std::numeric_limits<std::int64_t>::max(), high = -1;
-    for (; t < f.triangle.size() && f.kind[t] == kShell && f.cell_id[t] == f.cell_id[first]; ++t)
+    for (; t < f.triangle.size() && f.kind[t] == io::kShell && f.cell_id[t] == f.cell_id[first];
+         ++t)
       for (const std::int64_t n : f.triangle[t]) low = std::min(low, n), high = std::max(high, n);
     Mesh mesh{f.cell_id[first], {}, {}};
     for (std::int64_t n = low; n <= high; ++n) mesh.node.push_back(point_of(f, n));
@@ -190,7 +187,8 @@ void Inspection::inspect_shapes() {
 double Inspection::deepest_overlap() const {
   double radius = 0;
   for (const Mesh& m : meshes_) radius = std::max(radius, sphere_radius(rest_.at(m.id)));
-  return start_.params.dcm_contact.max_depth + kOverlapBetweenPoints * unit_edge(start_) * radius;
+  return start_.params.dcm_contact.max_depth +
+         runs::kOverlapBetweenPoints * unit_edge(start_) * radius;
 }
 
 void Inspection::inspect_overlaps() {

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "core/numbers/time_grid.hpp"
-#include "core/parallel/arrays.hpp"
+#include "core/parallel/make_room.hpp"
 #include "core/parallel/threads.hpp"
 #include "coupling/migration/migration.hpp"
 #include "coupling/step/constrained_points.hpp"

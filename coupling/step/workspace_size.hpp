@@ -9,16 +9,15 @@ namespace acinus::coupling {
 /// Sizes a workspace for the present set of cells. Call it after a change of the set and before the
 /// first step.
 void size_workspace(const World& world, Workspace& work);
+/// Sizes a workspace, and hands the contacts of spheres and the last moves of cells over to their
+/// new owners. Collective.
+void size_workspace(World& world, Workspace& work);
 
-/// The part of it that contacts need: their search begins anew with the present set of cells.
+/// Sizes what contacts need: their search begins anew with the present set of cells.
 void begin_contacts(const World& world, Workspace& work);
 
 /// Frees what a step makes anew for its solve, as room for a frame: what is written is then the
 /// only large thing besides contacts and matrix.
 void release_scratch(Workspace& work);
-
-/// The same, and hands the contacts of spheres and the last moves of cells over to their new
-/// owners. Collective.
-void size_workspace(World& world, Workspace& work);
 
 }  // namespace acinus::coupling

@@ -37,7 +37,7 @@ Vec3 center_of_lane(const State& s, std::size_t lane) {
 }
 
 /// Sorts members along a space-filling curve.
-/// @param center  [lanes] of the cells of `s`; those of other states have their points
+/// @param center_of_s  [lanes] um, of the cells of `s`; those of other states have their points
 void sort_along_curve(std::vector<SelectedCell<State>>& members, bool spheres, const State& s,
                       std::span<const Vec3> center_of_s) {
   std::vector<Vec3> center;

@@ -63,14 +63,14 @@ void visit_lanes(const Ranks& ranks, const State& state, LaneRange range,
 
 /// Positions of all rows of deformable cells [n_row][3][lane], at the root. Collective likewise.
 void visit_shell_positions(const Ranks& ranks, const State& state, const TakeNumbers& take);
-/// Those of the rows of spheres.
+/// Positions of all rows of spheres, likewise.
 void visit_sphere_positions(const Ranks& ranks, const State& state, const TakeNumbers& take);
-/// State::last_move.
+/// Displacements of the last step, State::last_move, likewise.
 void visit_last_move(const Ranks& ranks, const State& state, const TakeNumbers& take);
 
 /// Number of pairs in cbm::State::touching of all processes together. Collective.
 std::size_t count_touching(const Ranks& ranks, const State& state);
-/// Those pairs, sorted, at the root. Collective.
+/// Pairs in cbm::State::touching of all processes, sorted, at the root. Collective.
 void visit_touching(const Ranks& ranks, const State& state,
                     const std::function<void(std::span<const std::pair<int, int>>)>& take);
 

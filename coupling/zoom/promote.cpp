@@ -28,13 +28,13 @@ std::vector<Vec3> directions(const geometry::Topology& t, const Mat3& turn) {
   return direction;
 }
 
-/// Copies properties that do not depend on the model.
-void carry_over(const State& from, const Cell& c, State& to, std::size_t index) {
+/// Copies properties of a cell that do not depend on the model to the only cell of a state.
+void carry_over(const State& from, const Cell& c, State& to) {
   to.clock = from.clock;
-  to.leader.assign(index + 1, 0);
-  if (c.index < from.leader.size()) to.leader[index] = from.leader[c.index];
-  to.cycle.assign(index + 1, Cycle{});
-  if (c.index < from.cycle.size()) to.cycle[index] = from.cycle[c.index];
+  to.leader.assign(1, 0);
+  if (c.index < from.leader.size()) to.leader[0] = from.leader[c.index];
+  to.cycle.assign(1, Cycle{});
+  if (c.index < from.cycle.size()) to.cycle[0] = from.cycle[c.index];
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ State make_shell(const World& world, std::size_t sphere, const NewShell& shell) 
   const double now = s.clock.time;
   dcm::give_shape(params, {shell.node, radius, 1, {1, 0, now, now + dcm::kForgetShape}}, 0,
                   out.dcm);
-  carry_over(s, {false, sphere, cell_index(s, sphere)}, out, 0);
+  carry_over(s, {false, sphere, cell_index(s, sphere)}, out);
   out.cycle.resize(out.dcm.n_lane());
   out.leader.resize(out.dcm.n_lane());
   if (!has_last_move(s)) return out;
@@ -113,7 +113,7 @@ State make_sphere(const World& world, std::size_t lane) {
                         world.params.zoom.seed, d.lineage[lane]),
         d.pull[lane]}});
   out.cbm.volume[0] = d.volume[lane];
-  carry_over(s, {true, lane, lane}, out, 0);
+  carry_over(s, {true, lane, lane}, out);
   if (!has_last_move(s)) return out;
   Vec3 move = Vec3::Zero();
   for (int i = 0; i < group.topology->n_node; ++i)

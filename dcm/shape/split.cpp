@@ -92,7 +92,6 @@ Split split_cell(const geometry::Topology& topology, std::span<const Vec3> node,
   DaughterShapes out;
   out.plane = *plane;
   out.rim = cut.loop[0];
-  out.rim_length = compute_length(out.rim);
   out.part = make_parts(topology);
   const double target = geometry::compute_volume(node, topology.triangle) / 2;
   for (std::size_t h = 0; h < 2; ++h) {

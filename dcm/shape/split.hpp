@@ -30,7 +30,6 @@ bool match_volume(const geometry::Topology& topology, double target_volume,
 struct DaughterShapes {
   geometry::CutPlane plane;
   std::vector<Vec3> rim;   ///< intersection of the plane with the mother's surface, in order
-  double rim_length = 0;   ///< um
   std::vector<Part> part;  ///< [n_node] of both; cap and rim nodes lie in the plane or are rounded
   std::array<std::vector<Vec3>, 2> node;  ///< um; the rims of both have the same points
   /// Part of the half's volume that chords cut off, before the nodes were moved out to regain it.

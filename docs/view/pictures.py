@@ -71,10 +71,6 @@ def overview(runs):
     sheet.save(IMAGES / "overview.png")
 
 
-def lobule(runs):
-    draw_single(IMAGES / "lobule.png", runs.get("lobule_hybrid"), ["--color", "kind"], "1100x800")
-
-
 def moving_zoom(runs):
     run = runs.get("lobule_moving_zoom")
     sheet = Sheet(1300, 560)
@@ -248,7 +244,7 @@ def gallery(runs):
         print("%-20s %6.1f s of CPU, %d deformable cells, %d spheres" % (name, *runs.cost(name)), flush=True)
 
 
-PICTURES = {f.__name__: f for f in (overview, lobule, moving_zoom, monolayers, spheroids, spheroid_1000, patch_capsule, single_cell,
+PICTURES = {f.__name__: f for f in (overview, moving_zoom, monolayers, spheroids, spheroid_1000, patch_capsule, single_cell,
                                     pull_off_tension, regeneration_frames, imported, report, gallery)}
 
 

@@ -27,6 +27,8 @@
 namespace acinus::geometry {
 namespace {
 
+constexpr std::size_t kMostTriangles = 20'000'000;
+
 /// Throws Error for far more triangles than are allowed, which would take too long to count.
 void check_extent(const geometry::Network& network, const VesselMeshOptions& o) {
   constexpr double kMargin = 10;  // the estimate is rough
@@ -44,12 +46,12 @@ void check_extent(const geometry::Network& network, const VesselMeshOptions& o) 
       worst = s;
     }
   }
-  check(all <= kMargin * static_cast<double>(o.most_triangles),
+  check(all <= kMargin * static_cast<double>(kMostTriangles),
         fmt::format(
             "the surface would have some {:.2g} triangles; at most {} are made. Segment {} "
             "alone needs {:.2g}: it is {:.4g} um long with a radius of {:.4g} um. Check "
             "its nodes and the unit of the file.",
-            all, o.most_triangles, worst, most,
+            all, kMostTriangles, worst, most,
             (network.node[network.segment[worst][1]] - network.node[network.segment[worst][0]])
                 .norm(),
             0.5 * (network.radius[worst][0] + network.radius[worst][1])));
@@ -188,7 +190,7 @@ VesselMesh make_vessel_mesh(const geometry::Network& network, const VesselMeshOp
       return std::abs(out.found.parts - out.expected.parts) +
              std::abs(out.found.handles() - out.expected.handles());
     };
-    raw = extract_zero(shape, o.most_triangles, count_faults);
+    raw = extract_zero(shape, kMostTriangles, count_faults);
     out.found = geometry::compute_connectivity(raw.surface);
     if (out.is_as_expected() || out.overlapping > 0) break;
     if (attempt + 1 < o.attempts) out.fineness *= kFiner;

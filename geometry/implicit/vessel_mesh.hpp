@@ -15,7 +15,6 @@ struct VesselMeshOptions {
   double edge = 0;        ///< um, the same for all triangles; 0: by the radius of each vessel
   double rounding = 0.1;  ///< as VesselField
   int attempts = 3;       ///< ever finer, until the surface has the parts and loops of the network
-  std::size_t most_triangles = 20'000'000;
 };
 
 struct VesselMesh {

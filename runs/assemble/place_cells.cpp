@@ -57,7 +57,7 @@ std::vector<Vec3> fill_box(const Scene& scene, const contact::Boundary& boundary
     if (!free) continue;
     // The next cell's type hangs on its number: large cells are not rarer for the volume they need.
     const CellType& type = scene.cell_types.at(draw_cell_type(scene, std::ssize(seeds), x));
-    if (contact::nearest_gap(boundary, x, 0) < start_radius(scene, largest_start(type))) continue;
+    if (contact::nearest_gap(boundary, x) < start_radius(scene, largest_start(type))) continue;
     seeds.push_back(x);
     tries = 0;
   }
@@ -239,7 +239,7 @@ void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
     std::string name;
     // Of a shape of its own only the middle is looked at.
     const double r = c.shaped ? kMostStartOverlap : start_radius(scene, c.radius);
-    const double gap = contact::nearest_gap(boundary, c.center, 0, &name);
+    const double gap = contact::nearest_gap(boundary, c.center, &name);
     if (gap >= r - kMostStartOverlap) continue;
     if (++bad <= 10)
       message += fmt::format(

@@ -39,7 +39,7 @@ CellRecords read_cells(const io::RunReader& reader, int frame, const std::string
                     1e3 * pressure[k],
                     force[k],
                     static_cast<double>(contacts[k]),
-                    kind[k] == 0,
+                    kind[k] == io::kShell,
                     radius[k]};
   return cells;
 }

@@ -20,7 +20,7 @@ constexpr const char* kLabelPattern = "^[A-Za-z0-9_ -]{1,100}$";
 /// Builds one object schema per block; the innermost open one is the last of the stack.
 class SchemaBuilder final : public Visitor {
  public:
-  SchemaBuilder() { stack_.push_back(block_schema("")); }
+  SchemaBuilder() { stack_.push_back(block_schema()); }
 
   void real(const Key& key, double& value) override {
     OrderedJson schema = real_schema(key);
@@ -125,9 +125,8 @@ class SchemaBuilder final : public Visitor {
   OrderedJson finished() { return std::move(stack_.front()); }
 
  private:
-  static OrderedJson block_schema(const char* meaning) {
+  static OrderedJson block_schema() {
     OrderedJson schema{{"type", "object"}};
-    if (meaning[0]) schema["description"] = meaning;
     schema["additionalProperties"] = false;
     schema["properties"] = OrderedJson::object();
     return schema;
@@ -182,7 +181,7 @@ class SchemaBuilder final : public Visitor {
   }
 
   OrderedJson inner(const Members& members) {
-    stack_.push_back(block_schema(""));
+    stack_.push_back(block_schema());
     const bool conditional = std::exchange(conditional_, false);
     members(*this);
     conditional_ = conditional;

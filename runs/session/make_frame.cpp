@@ -19,7 +19,7 @@ namespace {
 
 using coupling::CellMeasure;
 
-constexpr std::uint8_t kShell = 0, kSphere = 1, kBoundary = 2, kNucleus = 3;
+using io::kBoundary, io::kNucleus, io::kShell, io::kSphere;
 
 io::Table cell_table(const std::vector<CellMeasure>& cells) {
   io::Table t;

@@ -16,9 +16,6 @@
 namespace acinus::runs {
 namespace {
 
-/// Additional overlap of a surface between contact points, as a share of the mean edge length.
-constexpr double kOverlapBetweenPoints = 0.25;
-
 /// Radius of a sphere, from the process that has it, um.
 double radius_of(const coupling::World& world, const coupling::Workspace& work, std::int64_t id) {
   const coupling::State& s = world.state;

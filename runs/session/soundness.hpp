@@ -11,6 +11,9 @@
 
 namespace acinus::runs {
 
+/// Additional overlap of a surface between contact points, as a share of the mean edge length.
+inline constexpr double kOverlapBetweenPoints = 0.25;
+
 /// Largest overlap of a deformable cell with a cell, wall or vessel that contact can resolve, um:
 /// max_depth of the contact search plus a share of a mesh edge, since a surface may lie deeper
 /// between contact points.

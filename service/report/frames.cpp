@@ -13,8 +13,6 @@
 namespace acinus::service {
 namespace {
 
-constexpr std::uint8_t kBoundaryKind = 2;
-
 /// Part of a frame's surfaces with its own nodes.
 struct Surfaces {
   std::vector<double> x, y, z;
@@ -27,7 +25,7 @@ Surfaces take_surfaces(const io::Frame& f, bool boundary) {
   Surfaces s;
   std::vector<std::int64_t> place(f.n_mesh_node, -1);
   for (std::size_t t = 0; t < f.triangle.size(); ++t) {
-    if ((f.kind[t] == kBoundaryKind) != boundary) continue;
+    if ((f.kind[t] == io::kBoundary) != boundary) continue;
     for (const std::int64_t node : f.triangle[t]) {
       std::int64_t& at = place[node];
       if (at < 0) {

@@ -1,7 +1,6 @@
 /// Arrays that are a little longer every step move seldom and stand nearly full.
 
 #include "core/parallel/make_room.hpp"
-#include "core/parallel/arrays.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,18 +33,6 @@ TEST(MakeRoom, AnArrayThatDoublesMovesTwelveTimes) {
                           set_size(v, n);
                         }),
             13);
-}
-
-TEST(MakeRoom, ZerosReplaceWhatWasThere) {
-  std::vector<double> v(500, 3.0);
-  assign_zeros(v, 700);
-  EXPECT_EQ(v, std::vector<double>(700, 0.0));
-  v.assign(900, 2.0);
-  assign_zeros(v, 20);
-  EXPECT_EQ(v, std::vector<double>(20, 0.0));
-  const std::vector<double> from{1, 2, 3};
-  copy_numbers(from, v);
-  EXPECT_EQ(v, from);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/parallel/arrays.hpp"
+#include "core/parallel/make_room.hpp"
 
 namespace acinus {
 namespace {
@@ -42,7 +42,7 @@ TEST(RowVector, GrowsWithoutWriting) {
 
 TEST(RowVector, ShortOnesAreCopiedAndCompared) {
   RowVector<double> v;
-  assign_zeros(v, 20);
+  v.assign(20, 0.0);
   v[3] = 5;
   const RowVector<double> copy = v;
   EXPECT_EQ(copy, v);

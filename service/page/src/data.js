@@ -1,4 +1,4 @@
-// Reads what runs/report/pack.cpp wrote: deflated, in byte planes, base64.
+// Reads what service/report/pack.cpp wrote: deflated, in byte planes, base64.
 
 async function inflate(chunk) {
   const bytes = Uint8Array.from(atob(chunk), (c) => c.charCodeAt(0));
