@@ -32,7 +32,7 @@ struct Side {
   static Side at(Point p) { return {{p, p, p}, {0, 0}}; }
   static Side nowhere() { return {}; }
   bool exists() const { return point[0] != kNowhere; }
-  /// True for a single point, not one between three: the weights do not count.
+  /// True for a single point, not one between three; its weights are 0.
   ACINUS_INLINE bool is_single() const { return point[0] == point[2]; }
 };
 
