@@ -44,12 +44,6 @@ std::vector<Vec3> reverse_loop(std::vector<Vec3> loop) {
   return loop;
 }
 
-double compute_length(std::span<const Vec3> loop) {
-  double length = (loop.front() - loop.back()).norm();
-  for (std::size_t k = 1; k < loop.size(); ++k) length += (loop[k] - loop[k - 1]).norm();
-  return length;
-}
-
 }  // namespace
 
 std::optional<double> match_volume_along(const geometry::Topology& topology, double target_volume,
