@@ -43,7 +43,7 @@ std::string describe_law(const std::string& file) {
 std::string find_shipped_law(const Scene& scene, const CellType& type) {
   // Shipped laws were calibrated with the default settings of contact. Contact points, and the
   // range that an accuracy sets with them, change the modulus less than a law errs in other tissue
-  // (docs/science/calibration.md).
+  // (decision 66).
   const ContactBlock defaults;
   ContactBlock contact = scene.contact;
   contact.quadrature = defaults.quadrature;
