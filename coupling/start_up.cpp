@@ -55,6 +55,11 @@ void enter(Clock& c, Phase phase) {
   c.last_step = 0;  // forces jump: the last step predicts nothing
 }
 
+void begin_run(Clock& c) {
+  enter(c, Phase::kRun);
+  c.origin = c.time;
+}
+
 }  // namespace
 
 void begin_start_up(World& world, double initial_radius) {
@@ -109,16 +114,14 @@ std::string update_phase(World& world, Workspace& work) {
   if (!capped && std::abs(checks - std::round(checks)) * kSettleCheckInterval > 1e-6) return {};
   if (in_phase < 1e-6 && !capped) return {};
   if (p.max_settle < kSameTime) {
-    enter(c, Phase::kRun);
-    c.origin = c.time;
+    begin_run(c);
     return fmt::format("t = 0 after {:.2f} h of start-up, without settling", c.time / 3600);
   }
   complete_cells(world.ranks, world.state);
   const double speed = largest_speed(world.state), drift = pressure_drift(world, work);
   const bool rest = speed < p.speed_tolerance && drift < p.pressure_tolerance;
   if (!rest && !capped) return {};
-  enter(c, Phase::kRun);
-  c.origin = c.time;
+  begin_run(c);
   const std::string end =
       rest ? "at rest" : fmt::format("not equilibrated within {:.3g} h", p.max_settle / 3600);
   return fmt::format(

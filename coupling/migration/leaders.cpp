@@ -176,7 +176,7 @@ bool choose_leaders(const Params& params, const State& s, std::span<const double
     cells[n_lane + c] = make_polar(m, cbm::center_of(s.cbm, c), cbm_radius[c]);
   for (std::size_t i = 0; i < n; ++i) cells[i].led = leader[i] != 0;
   std::vector<contact::Plane> walls = params.boundary.planes;
-  for (contact::Plane& wall : walls) contact::stop_wall(wall, s.clock.time - s.clock.origin);
+  for (contact::Plane& wall : walls) contact::stop_wall(wall, wall_time(s.clock, s.clock.time));
   leader = find_leaders(m, cells, walls);
   return true;
 }

@@ -127,14 +127,19 @@ TEST(OpenSpaces, UptakeAtASurfaceConvergesWithTheFirstOrder) {
   EXPECT_LT(fine, 0.6 * coarse);
 }
 
+/// Wall with its cells at smaller x.
+contact::Plane wall_at(double x) {
+  contact::Plane plane;
+  plane.point = Vec3(x, 0, 0);
+  plane.normal = Vec3(-1, 0, 0);
+  return plane;
+}
+
 TEST(OpenSpaces, WallsAndMeshesAreBarriers) {
   World w = make_test_world({{Vec3(40, 100, 100), false}}, 60);
   Substance& s = add_substance(w, 0);
   s.outside_obstacles = true;
-  contact::Plane plane;
-  plane.point = Vec3(101.7, 0, 0);
-  plane.normal = Vec3(-1, 0, 0);
-  w.params.boundary.planes.push_back(plane);
+  w.params.boundary.planes.push_back(wall_at(101.7));
   CellExchange e;
   e.secretion = 1;
   s.exchange.assign(w.params.dcm.size(), e);
@@ -153,14 +158,12 @@ TEST(OpenSpaces, WallsAndMeshesAreBarriers) {
   EXPECT_GT(field.secreted, 0);
 }
 
-TEST(OpenSpaces, WallsAreWhereTheyAreAtTheTimeSinceTheStart) {
+TEST(OpenSpaces, WallsMoveFromTheEndOfAStartUpOn) {
   World w = make_test_world({{Vec3(40, 100, 100), false}}, 60);
   Substance& s = add_substance(w, 0);
   s.outside_obstacles = true;
-  contact::Plane plane;
-  plane.point = Vec3(100, 0, 0);
-  plane.normal = Vec3(-1, 0, 0);
-  plane.speed = -10.0 / 3600;  // toward the cell's far side: the space grows
+  contact::Plane plane = wall_at(100);
+  plane.speed = -10.0 / 3600;  // away from the cell
   plane.travel = 1000;
   w.params.boundary.planes.push_back(plane);
   w.state.clock.time = 5 * 3600;
