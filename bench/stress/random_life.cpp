@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bench/stress/random_streams.hpp"
 #include "core/numbers/random.hpp"
 
 namespace acinus::bench {
@@ -13,7 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kLifeStream = 1;  ///< the rest of the scene uses stream 0
 /// Shortest cycle of a nominal scene, s: a fiftieth of a real cell's day.
 constexpr double kShortestCycle = 1800;
 

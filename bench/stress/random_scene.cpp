@@ -8,6 +8,7 @@
 
 #include "bench/stress/random_law.hpp"
 #include "bench/stress/random_life.hpp"
+#include "bench/stress/random_streams.hpp"
 #include "bench/stress/random_substance.hpp"
 #include "bench/stress/random_zoom.hpp"
 #include "core/numbers/random.hpp"
@@ -45,7 +46,7 @@ class Drawing {
   explicit Drawing(std::uint64_t seed)
       : seed_(seed),
         wide_(family_of(seed) == Family::kWide),
-        random_(seed, Purpose::kSampling, 0) {}
+        random_(seed, Purpose::kSampling, kSceneStream) {}
   RandomScene draw(const SceneKind& kind);
 
  private:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bench/stress/random_streams.hpp"
 #include "core/numbers/random.hpp"
 
 namespace acinus::bench {
@@ -12,7 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kSubstanceStream = 3;  ///< life uses stream 1, zoom stream 2
 /// Share of the scenes that have substances; of the others, share that may have rules without.
 constexpr double kShare = 0.4;
 

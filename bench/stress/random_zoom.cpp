@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "bench/stress/random_streams.hpp"
 #include "core/numbers/random.hpp"
 #include "core/sort_unique.hpp"
 
@@ -13,8 +14,6 @@ namespace acinus::bench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::uint64_t kZoomStream = 2;  ///< life uses stream 1
 
 std::string length(double value) { return fmt::format("{:.5g} um", value); }
 std::string time(double value) { return fmt::format("{:.5g} s", value); }
