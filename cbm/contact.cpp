@@ -199,7 +199,7 @@ std::vector<std::pair<int, int>> find_segments(const ContactInput& in, const Con
   // A surface about the vessels may be that much farther out, in its rounded creases.
   constexpr double kRounding = 0.05;
   const double beyond = in.boundary.vessels.wall ? margin + kRounding * widest : margin;
-  std::vector<std::pair<int, int>> pairs = contact::find_pairs_between(boxes, segments, beyond);
+  std::vector<std::pair<int, int>> pairs = geometry::find_pairs_between(boxes, segments, beyond);
   for (std::pair<int, int>& p : pairs) p.first = sphere[p.first];
   std::erase_if(pairs, [&](const std::pair<int, int>& p) {
     const std::size_t i = p.first;

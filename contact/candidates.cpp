@@ -352,8 +352,9 @@ std::vector<Candidates> list_pairs(std::span<const SurfaceBody> bodies,
   for (const SurfaceBody& b : bodies) boxes.push_back(b.box);
   for (const SurfaceBody& b : fixed) fixed_boxes.push_back(b.box);
   const auto n = static_cast<int>(bodies.size());
-  const std::vector<std::pair<int, int>> both = find_pairs(boxes, margin);
-  const std::vector<std::pair<int, int>> probed = find_pairs_between(boxes, fixed_boxes, margin);
+  const std::vector<std::pair<int, int>> both = geometry::find_pairs(boxes, margin);
+  const std::vector<std::pair<int, int>> probed =
+      geometry::find_pairs_between(boxes, fixed_boxes, margin);
   // f(a, b) for all pairs, those of each a ascending: pairs come in order of their first bodies.
   const auto for_each_pair = [&](const auto& f) {
     if (!o.triangles)

@@ -106,7 +106,7 @@ void find_sphere_pairs(const double* position, std::span<const double> radius, d
       boxes.push_back(sphere_box(center(position, i), radius[i]));
       sphere.push_back(static_cast<int>(i));
     }
-    pairs = find_pairs(boxes, margin);
+    pairs = geometry::find_pairs(boxes, margin);
     for (auto& [i, j] : pairs) {
       i = sphere[static_cast<std::size_t>(i)];
       j = sphere[static_cast<std::size_t>(j)];

@@ -55,7 +55,7 @@ CutCells cut_overlapping(World& world) {
   const std::vector<StartBall> balls = list_balls(s);
   std::vector<Box> box;
   for (const StartBall& b : balls) box.push_back(sphere_box(b.center, b.radius));
-  const auto pairs = contact::find_pairs(box, 0);
+  const auto pairs = geometry::find_pairs(box, 0);
 
   std::vector<std::vector<dcm::VolumeFace>> face(balls.size());
   std::vector<std::uint8_t> deep(balls.size(), 0);

@@ -7,7 +7,7 @@
 
 #include "core/parallel/threads.hpp"
 
-namespace acinus::contact {
+namespace acinus::geometry {
 namespace {
 
 /// Fewest boxes that are searched by all threads.
@@ -73,7 +73,7 @@ std::vector<std::pair<int, int>> find_pairs(std::span<const Box> boxes, double m
   if (n < 2) return {};
   std::vector<BoxGrid::Item> item;
   const BoxGrid grid(boxes, widest(boxes) + margin, boxes[0].low, item);
-  // In the order of the boxes, whoever finds them.
+  // In the order of the boxes, for any number of threads.
   const std::size_t n_part = n < kLeastShared ? 1 : thread_count();
   std::vector<std::vector<std::pair<int, int>>> found(n_part);
   for_each_part(n_part, [&](std::size_t part) {
@@ -116,4 +116,4 @@ void find_pairs_between(std::span<const Box> a, std::span<const Box> b, double m
   }
 }
 
-}  // namespace acinus::contact
+}  // namespace acinus::geometry

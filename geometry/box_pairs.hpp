@@ -7,7 +7,7 @@
 
 #include "core/box.hpp"
 
-namespace acinus::contact {
+namespace acinus::geometry {
 
 /// All pairs (i, j), i < j, of boxes closer than `margin` in every direction; ascending order.
 /// Cost: linear in boxes and pairs (uniform grid of the largest box).
@@ -19,4 +19,4 @@ std::vector<std::pair<int, int>> find_pairs_between(std::span<const Box> a, std:
 void find_pairs_between(std::span<const Box> a, std::span<const Box> b, double margin,
                         std::vector<std::pair<int, int>>& pairs);
 
-}  // namespace acinus::contact
+}  // namespace acinus::geometry

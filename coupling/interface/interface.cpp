@@ -134,7 +134,7 @@ void find_near(const InterfaceInput& in, double range, dcm::ContactWorkspace& dc
     work.sphere.push_back(sphere_box(cbm::center_of(in.cbm.state, i), in.cbm.cells.radius[i]));
     work.number.push_back(static_cast<int>(i));
   }
-  contact::find_pairs_between(work.body, work.sphere, range, work.near);
+  geometry::find_pairs_between(work.body, work.sphere, range, work.near);
   for (std::pair<int, int>& p : work.near) p.second = work.number[p.second];
   if (dcm_work.ghost.empty() && cbm_work.ghost.empty()) return;
   std::erase_if(work.near, [&](const std::pair<int, int>& p) {

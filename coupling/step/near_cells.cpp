@@ -165,7 +165,7 @@ NearCells find_near_cells(const World& world, const OwnCells& own, double reach)
     const bool first = world.ranks.rank() < p.rank;
     std::vector<std::uint8_t> sends(mine.size(), 0), receives(theirs.size(), 0);
     std::vector<Box> a = boxes_of(first ? mine : theirs), b = boxes_of(first ? theirs : mine);
-    for (const auto& [i, j] : contact::find_pairs_between(a, b, reach)) {
+    for (const auto& [i, j] : geometry::find_pairs_between(a, b, reach)) {
       sends[static_cast<std::size_t>(first ? i : j)] = 1;
       receives[static_cast<std::size_t>(first ? j : i)] = 1;
     }

@@ -100,7 +100,7 @@ CellSet find_neighbours(const World& world, const CellSet& cells, double reach) 
   for (std::size_t l : others.dcm) outer.push_back(box_of(s, l));
   for (std::size_t c : others.cbm) outer.push_back(sphere(c));
   std::vector<std::uint8_t> near(outer.size(), 0);
-  for (const auto& pair : contact::find_pairs_between(inner, outer, reach)) near[pair.second] = 1;
+  for (const auto& pair : geometry::find_pairs_between(inner, outer, reach)) near[pair.second] = 1;
   const std::size_t n_shell = others.dcm.size();
   CellSet found;
   for (std::size_t k = 0; k < near.size(); ++k) {

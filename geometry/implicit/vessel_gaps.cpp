@@ -204,7 +204,7 @@ VesselGaps find_narrow_gaps(const geometry::Network& n, double rounding, double 
     box.push_back(geometry::cone_box(n, s));
     thickest = std::max({thickest, n.radius[s][0], n.radius[s][1]});
   }
-  const std::vector<std::pair<int, int>> pairs = contact::find_pairs(box, of_radius * thickest);
+  const std::vector<std::pair<int, int>> pairs = find_pairs(box, of_radius * thickest);
   std::vector<std::vector<int>> beside(n.segment.size());
   for (const auto& [s, t] : pairs) {
     beside[s].push_back(t);

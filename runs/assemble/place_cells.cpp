@@ -85,7 +85,7 @@ std::vector<std::pair<int, int>> find_crowded(const Scene& scene,
   std::vector<Box> boxes;
   for (const PlacedCell& c : cells)
     boxes.push_back(sphere_box(c.center, 0.5 * start_radius(scene, c.radius)));
-  std::vector<std::pair<int, int>> pairs = contact::find_pairs(boxes, 0);
+  std::vector<std::pair<int, int>> pairs = geometry::find_pairs(boxes, 0);
   std::erase_if(pairs, [&](const std::pair<int, int>& pair) {
     const PlacedCell &p = cells[pair.first], &q = cells[pair.second];
     return (p.center - q.center).norm() >=
@@ -237,7 +237,7 @@ void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
   int bad = 0;
   for (const PlacedCell& c : cells) {
     std::string name;
-    // Of a shape of its own only the middle is looked at.
+    // Of a cell with a given shape only the centre is checked.
     const double r = c.shaped ? kMostStartOverlap : start_radius(scene, c.radius);
     const double gap = contact::nearest_gap(boundary, c.center, &name);
     if (gap >= r - kMostStartOverlap) continue;

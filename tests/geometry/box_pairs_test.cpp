@@ -7,7 +7,7 @@
 #include "core/parallel/threads.hpp"
 #include "tests/reference/sample.hpp"
 
-namespace acinus::contact {
+namespace acinus::geometry {
 namespace {
 
 std::vector<Box> random_boxes(std::uint64_t seed, int n, double world) {
@@ -93,4 +93,4 @@ TEST(Box, OverlapsContainsAndGrows) {
 }
 
 }  // namespace
-}  // namespace acinus::contact
+}  // namespace acinus::geometry
