@@ -1,10 +1,10 @@
 #include "coupling/measure/difference.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
+#include "geometry/nearest_rotation.hpp"
 
 namespace acinus::coupling {
 
@@ -30,10 +30,7 @@ Distance aligned_distance(std::span<const Vec3> point, std::span<const Vec3> ref
   Mat3 covariance = Mat3::Zero();
   for (std::size_t k = 0; k < point.size(); ++k)
     covariance += (point[k] - middle) * (reference[k] - reference_middle).transpose();
-  const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Mat3 flip = Mat3::Identity();
-  flip(2, 2) = (svd.matrixV() * svd.matrixU().transpose()).determinant() < 0 ? -1 : 1;
-  const Mat3 turn = svd.matrixV() * flip * svd.matrixU().transpose();
+  const Mat3 turn = geometry::nearest_rotation(covariance).transpose();
   Distance d;
   double sum = 0;
   for (std::size_t k = 0; k < point.size(); ++k) {

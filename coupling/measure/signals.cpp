@@ -26,8 +26,8 @@ std::vector<double> of_each(const std::vector<CellMeasure>& cells, const F& f) {
 }
 
 /// Contacts with living cells of the rule's partner type.
-std::vector<double> sum_contacts(const SignalRule& r, const std::vector<CellMeasure>& cells,
-                                 const std::vector<CellContact>& contacts) {
+std::vector<double> values_of_contacts(const SignalRule& r, const std::vector<CellMeasure>& cells,
+                                       const std::vector<CellContact>& contacts) {
   std::vector<double> value(cells.size(), 0.0);
   const auto add = [&](std::size_t cell, std::size_t other, double area, bool touching) {
     const CellMeasure& o = cells[other];
@@ -65,7 +65,7 @@ std::vector<std::vector<double>> measure_signals(const World& world, const Works
         return of_each(cells, &CellMeasure::volume);
       case Signal::kContactArea:
       case Signal::kNeighbours:
-        return sum_contacts(r, cells, contacts);
+        return values_of_contacts(r, cells, contacts);
       case Signal::kLayer:
         return layers_of(cells, p.axis_point);
       case Signal::kConcentration:

@@ -12,6 +12,7 @@
 #include "dcm/shape/split.hpp"
 #include "geometry/audit_body.hpp"
 #include "geometry/measures.hpp"
+#include "geometry/nearest_rotation.hpp"
 #include "geometry/star.hpp"
 
 namespace acinus::dcm {
@@ -49,10 +50,7 @@ Mat3 fit_rotation(const geometry::Topology& t, std::span<const Vec3> node, const
   Mat3 moment = Mat3::Zero();
   for (std::size_t i = 0; i < node.size(); ++i)
     moment += (node[i] - center) * t.rest[i].transpose();
-  Eigen::JacobiSVD<Mat3> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Mat3 sign = Mat3::Identity();
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) sign(2, 2) = -1;
-  return svd.matrixU() * sign * svd.matrixV().transpose();
+  return geometry::nearest_rotation(moment);
 }
 
 /// Outer surface of a folded mesh: the last intersections of rays from its centroid.

@@ -1,12 +1,12 @@
 #include "dcm/shape/place_nucleus.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 
 #include "dcm/shape/cast.hpp"
 #include "dcm/terms/nucleus_links.hpp"
 #include "geometry/inner_ball.hpp"
 #include "geometry/measures.hpp"
+#include "geometry/nearest_rotation.hpp"
 
 namespace acinus::dcm {
 namespace {
@@ -26,10 +26,7 @@ Mat3 fit_rotation(const Group& g, std::span<const Vec3> node, const Vec3& center
   for (int i = 0; i < g.nucleus.n_node(); ++i)
     sum += (node[link_ends(g)[i]] - center).normalized() *
            g.nucleus.topology->rest[i].normalized().transpose();
-  const Eigen::JacobiSVD<Mat3> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Mat3 flip = Mat3::Identity();
-  flip(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-  return svd.matrixU() * flip * svd.matrixV().transpose();
+  return geometry::nearest_rotation(sum);
 }
 
 }  // namespace
