@@ -10,6 +10,5 @@ double read_clock(clockid_t clock) {
 
 double wall_seconds() { return read_clock(CLOCK_MONOTONIC); }
 double cpu_seconds() { return read_clock(CLOCK_PROCESS_CPUTIME_ID); }
-double thread_cpu_seconds() { return read_clock(CLOCK_THREAD_CPUTIME_ID); }
 
 }  // namespace acinus

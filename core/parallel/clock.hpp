@@ -14,7 +14,4 @@ double wall_seconds();
 /// CPU time of all threads of this process since its start, s.
 double cpu_seconds();
 
-/// CPU time of the calling thread, s.
-double thread_cpu_seconds();
-
 }  // namespace acinus

@@ -51,7 +51,7 @@ bool started_by_launcher() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
     if (const char* value = std::getenv(name)) return std::atoi(value) > 1;
   }
-  return std::getenv("PMIX_RANK") != nullptr;  // tells no size: let MPI say
+  return std::getenv("PMIX_RANK") != nullptr;  // without the size, which MPI knows
 }
 
 constexpr std::size_t kLargestCount = std::size_t{1} << 30;  ///< bytes in one MPI call

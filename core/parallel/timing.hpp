@@ -12,9 +12,8 @@ namespace acinus {
 /// Times of one named stage, including those of stages nested in it.
 struct StageTime {
   std::string name;
-  double wall = 0.0;        ///< s
-  double cpu = 0.0;         ///< s, all threads of the process
-  double thread_cpu = 0.0;  ///< s, the thread that opened the scope
+  double wall = 0.0;  ///< s
+  double cpu = 0.0;   ///< s, all threads of the process
   std::uint64_t calls = 0;
 };
 
@@ -33,7 +32,7 @@ class Timings {
    private:
     Timings& timings_;
     std::size_t stage_;
-    double wall_, cpu_, thread_cpu_;
+    double wall_, cpu_;
   };
 
   [[nodiscard]] Scope scope(std::string_view stage) { return Scope(*this, stage); }

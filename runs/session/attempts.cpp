@@ -24,8 +24,7 @@ Attempts add_attempt(Attempts before, const Timings& timings) {
   ++before.count;
   for (const StageTime& now : timings.stages()) {
     auto found = std::ranges::find(before.stages, now.name, &StageTime::name);
-    if (found == before.stages.end())
-      found = before.stages.insert(found, {now.name, 0.0, 0.0, 0.0, 0});
+    if (found == before.stages.end()) found = before.stages.insert(found, {now.name, 0.0, 0.0, 0});
     found->wall += now.wall;
     found->cpu += now.cpu;
     found->calls += now.calls;
@@ -73,7 +72,7 @@ Attempts get_attempts(const io::CheckpointData& data) {
     const std::size_t k = attempts.stages.size();
     check(k < wall.size() && k < cpu.size() && k < calls.size(),
           data.source() + ": the times of the run's stages are damaged.", Exit::kFileError);
-    attempts.stages.push_back({name, wall[k], cpu[k], 0.0, calls[k]});
+    attempts.stages.push_back({name, wall[k], cpu[k], calls[k]});
   }
   return attempts;
 }

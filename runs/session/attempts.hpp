@@ -14,7 +14,7 @@ namespace acinus::runs {
 /// checkpoint, like the wall time of the run.
 struct Attempts {
   std::int64_t count = 0;
-  std::vector<StageTime> stages;  ///< thread_cpu is not kept
+  std::vector<StageTime> stages;
 };
 
 /// Adds an attempt with its times.
