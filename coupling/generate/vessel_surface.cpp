@@ -64,8 +64,8 @@ void add_tube(const std::vector<Ring>& ring, const Vec3& tip_a, const Vec3& tip_
 
 }  // namespace
 
-VesselSurface make_vessel_surface(const geometry::Network& network) {
-  VesselSurface out;
+geometry::Surface make_vessel_surface(const geometry::Network& network) {
+  geometry::Surface surface;
   for (std::size_t s = 0; s < network.segment.size(); ++s) {
     const Vec3 a = network.node[network.segment[s][0]];
     const Vec3 b = network.node[network.segment[s][1]];
@@ -73,21 +73,9 @@ VesselSurface make_vessel_surface(const geometry::Network& network) {
     const double length = (b - a).norm();
     const Vec3 along = length > 0 ? Vec3((b - a) / length) : Vec3::UnitZ();
     add_tube(rings_of(a, b, radius_a, radius_b, along), a - radius_a * along, b + radius_b * along,
-             along, out.surface);
-    out.segment.resize(out.surface.triangle.size(), static_cast<int>(s));
+             along, surface);
   }
-  return out;
-}
-
-double vessel_volume(const geometry::Network& network) {
-  double volume = 0;
-  for (std::size_t s = 0; s < network.segment.size(); ++s) {
-    const auto& [a, b] = network.segment[s];
-    const auto& [ra, rb] = network.radius[s];
-    const double length = (network.node[b] - network.node[a]).norm();
-    volume += kPi * length * (ra * ra + ra * rb + rb * rb) / 3;
-  }
-  return volume;
+  return surface;
 }
 
 }  // namespace acinus::coupling

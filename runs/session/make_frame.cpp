@@ -225,7 +225,7 @@ geometry::Surface draw_boundary(const contact::Boundary& boundary) {
   if (const contact::WallMesh* wall = boundary.vessels.wall.get())
     drawn = {wall->surface.body.node, *wall->surface.triangle};
   else
-    drawn = coupling::make_vessel_surface(boundary.vessels.network).surface;
+    drawn = coupling::make_vessel_surface(boundary.vessels.network);
   for (const contact::Pipette& p : boundary.pipettes) coupling::add_pipette_surface(p, drawn);
   return drawn;
 }
