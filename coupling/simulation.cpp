@@ -92,36 +92,38 @@ bool Simulation::run_events(const Observer& observer) {
   return !report.interrupted && (!observer.events_over || observer.events_over());
 }
 
-StepResult Simulation::take_step(double limit, LastStep& last) {
-  last.was_running = is_running();
-  last.change = next_change(world_.params, time());
-  if (last.was_running && is_change(world_.params, time())) start_anew(world_.state.clock);
+StepResult Simulation::take_step(double limit) {
+  if (is_running() && is_change(world_.params, time())) start_anew(world_.state.clock);
   refresh_signals(world_, work_);
   update_guidance(world_.params, world_.state);
   return advance(world_, work_, awake_, limit);
 }
 
-bool Simulation::end_step(const StepResult& step, const LastStep& last, const Observer& observer) {
-  if (last.was_running) advance_substances(world_, step.step, substances_, work_.timings);
+bool Simulation::end_step(const StepResult& step, bool of_start_up, const Observer& observer) {
+  if (!of_start_up) advance_substances(world_, step.step, substances_, work_.timings);
   if (observer.step) observer.step(step);
-  if (!last.was_running) {
+  if (of_start_up) {
     end_step_of_start_up(observer);
     return !observer.events_over || observer.events_over();
   }
-  if (time() > last.change - kSameTime) wake_all(world_);
+  if (is_change(world_.params, time())) wake_all(world_);
   return run_events(observer);
 }
 
 LoopResult Simulation::run_until(double end, const Observer& observer) {
-  LastStep last;
+  bool of_start_up = false;
   const EventsDue& due = world_.state.clock.due;
   LoopResult result;
   if (due == EventsDue::kNone || run_events(observer))
     result = run_loop(
         {.time_left = [&] { return is_running() ? end - time() : kNever; },
-         .advance = [&](double limit) { return take_step(limit, last); },
+         .advance =
+             [&](double limit) {
+               of_start_up = !is_running();
+               return take_step(limit);
+             },
          .time_to_event = [&] { return time_to_event(observer); },
-         .after = [&](const StepResult& step) { return end_step(step, last, observer); },
+         .after = [&](const StepResult& step) { return end_step(step, of_start_up, observer); },
          .recover = [&](const StepResult& failed) { return remove_dying(failed, observer); }});
   if (due != EventsDue::kNone) {
     result.ok = false;

@@ -58,16 +58,12 @@ class Simulation {
   LoopResult run_until(double end, const Observer& observer = {});
 
  private:
-  /// Record of the run before the last step.
-  struct LastStep {
-    bool was_running = false;
-    double change = 0;  ///< s since t = 0, next discontinuity of devices and walls
-  };
-
   double time_to_event(const Observer& observer) const;
-  StepResult take_step(double limit, LastStep& last);
-  /// Calls observers and events after a step.   @return false to end the simulation here
-  bool end_step(const StepResult& step, const LastStep& last, const Observer& observer);
+  StepResult take_step(double limit);
+  /// Calls observers and events after a step.
+  /// @param of_start_up  the step began before t = 0
+  /// @return false to end the simulation here
+  bool end_step(const StepResult& step, bool of_start_up, const Observer& observer);
   void end_step_of_start_up(const Observer& observer);
   bool run_events(const Observer& observer);
   bool remove_dying(const StepResult& failed, const Observer& observer);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numbers/hill.hpp"
 #include "core/numbers/random.hpp"
 
 namespace acinus::coupling {
@@ -35,10 +36,8 @@ double growth_factor(const Inhibition& p, const Crowding& now) {
       return falls(now.pressure);
     case InhibitedBy::kDensity:
       return falls(now.density);
-    case InhibitedBy::kVolume: {
-      const double x = std::pow(now.relative_volume / p.threshold, p.power);
-      return std::isinf(x) ? 1 : x / (1 + x);
-    }
+    case InhibitedBy::kVolume:
+      return hill(now.relative_volume, p.threshold, p.power);
   }
   return 1;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numbers/hill.hpp"
 #include "core/numbers/random.hpp"
 #include "core/sphere.hpp"
 #include "substances/sample.hpp"
@@ -26,8 +27,7 @@ Vec3 sense(const substances::VoxelGrid& grid, const std::vector<double>& field, 
 }  // namespace
 
 double signal_response(const SignalRule& r, double signal) {
-  const double x = std::pow(std::max(signal, 0.0) / r.half_max, r.power);
-  const double rises = std::isinf(x) ? 1 : x / (1 + x);
+  const double rises = hill(signal, r.half_max, r.power);
   return r.decreases ? 1 - rises : rises;
 }
 
