@@ -20,9 +20,12 @@ constexpr int kMaxPasses = 20;
 /// Largest share of the residual that a useful pass leaves: above it, the pass has reached the
 /// limit of its precision.
 constexpr double kLargestUsefulShare = 0.5;
-/// Iterations after which merging contacts pays: a solve that took so many is likely to take as
-/// many more.
-constexpr int kMergingIterations = 16;
+/// Expected iterations from which merging contacts pays: it costs as much as 10 to 20 products
+/// save.
+constexpr int kPayingIterations = 20;
+/// Iterations after which it pays where fewer are expected: a solve that took so many is likely to
+/// take as many more.
+constexpr int kMergingIterations = 32;
 /// Relative residual at which a solve that rounding stopped still counts as converged.
 constexpr double kRoundingTolerance = 1e-3;
 
@@ -36,6 +39,7 @@ struct PassPlan {
   double size = 1;  ///< norm of the residual: scaling by it keeps floats away from underflow
   double goal = 0;  ///< on sqrt(r . z), after scaling
   int max_iterations = 0;
+  int merging_iteration = 0;  ///< merges contacts then, in float
   const CoarseSpace* coarse = nullptr;
 };
 
@@ -61,7 +65,7 @@ PassEnd run_pass(Operator& op, std::span<const double> residual, const PassPlan&
     if (iterations >= plan.max_iterations) return PassEnd::kOutOfIterations;
     if (stop_requested()) return PassEnd::kAskedToStop;
     ++iterations;
-    if (std::is_same_v<T, float> && iterations == kMergingIterations) op.merge_links();
+    if (std::is_same_v<T, float> && iterations == plan.merging_iteration) op.merge_links();
     const double curvature = op.apply<T>(v.direction, v.product);
     if (!(curvature > 0)) return PassEnd::kBrokeDown;
     size2 = op.descend<T>(rho / curvature, v.direction, v.product, v.correction, v.residual,
@@ -81,11 +85,15 @@ void add_correction(const System& s, double size, const RowVector<T>& correction
   for_each_own_number(s, [&](std::size_t k) { x[k] += size * static_cast<double>(correction[k]); });
 }
 
-/// Computes the residual r = b - A x; returns its squared norm r . M^-1 r.
-double compute_residual(const Operator& op, std::span<const double> b,
-                        std::span<const double> product, CgWorkspace& work) {
-  for_each_own_number(op.system(), [&](std::size_t k) { work.residual[k] = b[k] - product[k]; });
-  return op.precondition(work.residual, {});
+/// Computes the residual b - A x from the product A x, or from x if that is empty.
+void compute_residual(const CgProblem& problem, std::span<const double> x,
+                      std::span<const double> product, CgWorkspace& work) {
+  if (product.empty()) {
+    problem.op.apply<double>(x, work.product);
+    product = work.product;
+  }
+  for_each_own_number(problem.op.system(),
+                      [&](std::size_t k) { work.residual[k] = problem.b[k] - product[k]; });
 }
 
 /// Runs one pass in the given precision and adds its correction to x unless it broke down.
@@ -110,31 +118,33 @@ constexpr const char* kIndefinite = "the matrix is not positive definite";
 
 CgResult solve_cg(const CgProblem& problem, std::span<double> x, const CgOptions& options,
                   CgWorkspace& work) {
-  const auto [op, b, coarse, start_product] = problem;
-  std::span<const double> product = start_product;
-  set_size(work.residual, b.size());
-  for_each_own_number(op.system(), [&](std::size_t k) { work.residual[k] = b[k]; });
-  set_size(work.product, b.size());
-  const double rhs = std::sqrt(op.precondition(work.residual, {}));
+  const Operator& op = problem.op;
+  set_size(work.residual, problem.b.size());
+  for_each_own_number(op.system(), [&](std::size_t k) { work.residual[k] = problem.b[k]; });
+  set_size(work.product, problem.b.size());
+  work.load = std::sqrt(op.precondition(work.residual, {}));
   CgResult result;
-  if (!std::isfinite(rhs)) return fail(result, "the right-hand side is not finite");
-  if (rhs == 0) {
+  if (!std::isfinite(work.load)) return fail(result, "the right-hand side is not finite");
+  if (work.load == 0) {
     for_each_own_number(op.system(), [&](std::size_t k) { x[k] = 0; });
     return result;
   }
+  compute_residual(problem, x, problem.product, work);
+  return continue_cg(problem, x, options, work);
+}
 
+CgResult continue_cg(const CgProblem& problem, std::span<double> x, const CgOptions& options,
+                     CgWorkspace& work) {
+  Operator& op = problem.op;
+  CgResult result;
   bool mixed = options.precision == Precision::kMixed;
   bool stopped = false;
   double before = std::numeric_limits<double>::infinity();
   for (int pass = 0;; ++pass) {
-    if (product.empty()) {
-      op.apply<double>(x, work.product);
-      product = work.product;
-    }
-    const double rho = compute_residual(op, b, product, work), size = std::sqrt(rho);
-    product = {};
+    if (pass > 0) compute_residual(problem, x, {}, work);
+    const double rho = op.precondition(work.residual, {}), size = std::sqrt(rho);
     if (!is_size(rho)) return fail(result, kIndefinite);
-    result.residual = size / rhs;
+    result.residual = size / work.load;
     if (result.residual <= options.tolerance) return result;
     if (stopped || pass >= kMaxPasses) return fail(result, "the linear solve did not converge");
     if (size > kLargestUsefulShare * before) {
@@ -143,9 +153,10 @@ CgResult solve_cg(const CgProblem& problem, std::span<double> x, const CgOptions
       mixed = false;
     }
     before = size;
-    const double goal = kGoalShare * options.tolerance * rhs / size;
-    const PassPlan plan{size, mixed ? std::max(goal, kLargestFloatReduction) : goal,
-                        options.max_iterations, coarse};
+    const double goal = kGoalShare * options.tolerance * work.load / size;
+    const PassPlan plan{
+        size, mixed ? std::max(goal, kLargestFloatReduction) : goal, options.max_iterations,
+        options.expected_iterations < kPayingIterations ? kMergingIterations : 1, problem.coarse};
     const PassEnd end = improve(op, mixed, plan, work, x, result.iterations);
     if (end == PassEnd::kAskedToStop) return fail(result, "asked to stop");
     stopped = end == PassEnd::kOutOfIterations;

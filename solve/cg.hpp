@@ -21,6 +21,7 @@ struct CgOptions {
   double tolerance = 3e-3;  ///< on sqrt(r^T M^-1 r), relative to sqrt(b^T M^-1 b)
   int max_iterations = 2000;
   Precision precision = Precision::kMixed;
+  int expected_iterations = 0;  ///< from a similar solve, 0: unknown. Changes rounding only
 };
 
 struct CgResult {
@@ -43,6 +44,7 @@ struct CgVectors {
 /// Scratch, sized on first use.
 struct CgWorkspace {
   RowVector<double> residual;  ///< b - A x of the solution returned
+  double load = 0;             ///< sqrt(b^T M^-1 b) of the last call of solve_cg
   RowVector<double> product;   ///< scratch; free for other use between solves
   CgVectors<float> single;
   CgVectors<double> full;
@@ -74,5 +76,12 @@ struct CgProblem {
 /// residual is below 1e-3, and states it. Fails when the process is asked to stop.
 CgResult solve_cg(const CgProblem& problem, std::span<double> x, const CgOptions& options,
                   CgWorkspace& work);
+
+/// Solves a system that changed a little since solve_cg, with the preconditioner and the coarse
+/// space of before. The tolerance is relative to the right-hand side of before.
+/// @param problem  without product
+/// @pre work.residual is b - A x of the changed system, and work.load is not 0
+CgResult continue_cg(const CgProblem& problem, std::span<double> x, const CgOptions& options,
+                     CgWorkspace& work);
 
 }  // namespace acinus::solve

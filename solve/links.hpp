@@ -34,6 +34,8 @@ struct Side {
   bool exists() const { return point[0] != kNowhere; }
   /// True for a single point, not one between three; its weights are 0.
   ACINUS_INLINE bool is_single() const { return point[0] == point[2]; }
+  /// True for a place between the first two points. A single point does not count.
+  bool is_on_edge() const { return weight[0] + weight[1] == 1; }
 };
 
 /// Matrix of a contact, in one cache line. Matrix of r: friction_scale friction I + stiffness_scale
@@ -70,8 +72,8 @@ using LinkForce = std::function<Vec3(std::size_t)>;
 struct Links {
   std::vector<Link> link;
   std::vector<LinkLaw> law;  ///< [n_link]
-  /// [n_link] 1: takes its closed law although it was open; see coupling/step/active_set.hpp.
-  /// Empty: none.
+  /// [n_link] 1: takes its closed law although it was open, 2: did and opens again; see
+  /// coupling/step/active_set.hpp. Empty: none.
   std::vector<std::uint8_t> closed;
 
   std::size_t size() const { return link.size(); }
@@ -80,7 +82,7 @@ struct Links {
     set_size(law, n);
     closed.clear();
   }
-  bool is_closed(std::size_t l) const { return !closed.empty() && closed[l] != 0; }
+  bool is_closed(std::size_t l) const { return !closed.empty() && closed[l] == 1; }
   void clear() { resize(0); }
 };
 

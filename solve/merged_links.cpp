@@ -64,7 +64,8 @@ bool is_merged(const System& s, const Link& l) {
   auto on_mesh = [&](const Side& side) {
     return !s.block[s.block_of(side.point[0])].pattern->spring_of.empty();
   };
-  return l.b.exists() && !l.a.is_single() && on_mesh(l.a) && (l.b.is_single() || on_mesh(l.b));
+  return l.b.exists() && !l.a.is_single() && !l.a.is_on_edge() && on_mesh(l.a) &&
+         (l.b.is_single() || on_mesh(l.b));
 }
 
 /// Collects runs of consecutive contacts that join the same cells, and sorts them by pair of cells.
@@ -174,10 +175,12 @@ std::size_t LinkMerger::memory() const {
   return bytes;
 }
 
-void LinkMerger::merge(const System& s, MergedLinks& out) {
+bool LinkMerger::merge(const System& s, MergedLinks& out) {
   update_runs(s);
+  if (!s.ownership.ranks.any(!run_.empty())) return false;
   add_across(s, out.pairs);
   add_within(s, out.edge);
+  return true;
 }
 
 }  // namespace acinus::solve

@@ -18,8 +18,9 @@
 
 namespace acinus::solve {
 
-/// True if a contact is worth merging: side a is a face of a mesh, side b another or a single
-/// point.
+/// True if a contact is worth merging: side a is inside a face of a mesh, side b on another or a
+/// single point. Contacts of nodes and edges share too few points: a product takes longer with them
+/// merged.
 bool is_merged(const System& system, const Link& link);
 
 /// Merged contacts of a system.
@@ -32,7 +33,8 @@ struct MergedLinks {
 /// threads.
 class LinkMerger {
  public:
-  void merge(const System& system, MergedLinks& out);
+  /// @return false, without result, if no contact of any process is merged. Collective.
+  bool merge(const System& system, MergedLinks& out);
   std::size_t memory() const;  ///< of the scratch, bytes
 
  private:

@@ -94,7 +94,6 @@ template <class Ends>
 void Operator::share(std::size_t n, ShareLists ThreadRange::*to, const Ends& ends) {
   const std::size_t n_range = range_.size();
   for (ThreadRange& range : range_) (range.*to).resize(n_range);
-  const auto range_of = [&](Point p) { return p == kNowhere ? -1 : range_of_row_[p / kLanes] - 1; };
   for_each_part(n_range, [&](std::size_t part) {
     thread_local ShareLists mine;  // side by side while they are filled
     mine.resize(n_range);
@@ -141,9 +140,8 @@ void Operator::share_links(bool with_matrix) {
 }
 
 void Operator::merge_links() {
-  if (merged_) return;
   const System& s = *system_;
-  merger_.merge(s, merge_);
+  if (merged_ || !merger_.merge(s, merge_)) return;
   const PointPairs& pairs = merge_.pairs;
   share(pairs.row.size(), &ThreadRange::pair, [&](std::size_t k) {
     const PointPairs::Row& row = pairs.row[k];

@@ -15,6 +15,13 @@
 
 namespace acinus::solve {
 
+/// Contact whose stiffness changed.
+struct LinkChange {
+  std::uint32_t link = 0;
+  double stiffer = 0;   ///< nN/um, change of its stiffness in the matrix
+  bool gained = false;  ///< it has a matrix for the first time since prepare
+};
+
 /// Operator of a System, prepared for products. T is double or float: iterations may run in float,
 /// all results are double. Vectors are [n_row][3][lane].
 ///
@@ -37,6 +44,10 @@ class Operator {
   /// Prepares the products for a system; call again after its loads changed. Cost: linear in
   /// elements and links.
   void prepare(const System& system);
+
+  /// Brings products and diagonal blocks of the preconditioner up to date after changes of the
+  /// stiffness of few links. Cost: linear in the changes.   @param changes  ascending
+  void update_links(std::span<const LinkChange> changes);
 
   /// Frees what prepare makes anew: the merged contacts and the scratch of products. The next call
   /// is to be prepare or add_link_forces.
@@ -141,6 +152,9 @@ class Operator {
   template <class Ends>
   void share(std::size_t n, ShareLists ThreadRange::*to, const Ends& ends);
   void share_links(bool with_matrix);
+  void add_share(std::uint32_t link);
+  void stiffen(Address point, double stiffness, const Vec3& normal);
+  int range_of(Point p) const { return p == kNowhere ? -1 : range_of_row_[p / kLanes] - 1; }
   void compute_inverse();
   LinkSet<Link> links_of(const ThreadRange& range) const;
   LinkSet<PointLink> point_links_of(const ThreadRange& range) const;

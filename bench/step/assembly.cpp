@@ -123,7 +123,7 @@ BenchRow measure_parts(int count, const std::string& quadrature) {
 
 BenchTable bench_assembly(const BenchOptions&) {
   BenchTable table;
-  for (const char* quadrature : {"3-point", "nodes"})
+  for (const char* quadrature : {"3-point", "nodes-and-edges", "nodes"})
     for (int count : {8, 27, 64, 512}) table.push_back(measure_parts(count, quadrature));
   return table;
 }

@@ -27,28 +27,23 @@ Vec3 rest_of_move(const Workspace& w, Address a) {
                                         : move;
 }
 
-/// Largest of these displacements, um, of own points and of those in contact with them.
-double largest_rest(const Workspace& w) {
-  std::atomic<double> largest2 = 0;
-  const auto raise = [&](double here) {
-    double known = largest2;
-    while (here > known && !largest2.compare_exchange_weak(known, here)) {
-    }
-  };
-  for (const auto& [first, last] : w.system.own) {
-    const std::size_t first_row = w.system.row_of(first), n_row = w.system.row_of(last) - first_row;
-    const std::size_t n_part = count_threads(n_row);
-    for_each_part(n_part, [&](std::size_t part) {
-      double here = 0;
-      for (std::size_t row = part * n_row / n_part; row < (part + 1) * n_row / n_part; ++row)
-        for (int lane = 0; lane < kLanes; ++lane)
-          here = std::max(here, rest_of_move(w, make_address(first_row + row, lane)).squaredNorm());
-      raise(here);
-    });
+/// Largest of these displacements in each cell, um, [lane]: of own points, and of others that are
+/// in contact with them.
+std::vector<double> largest_rests(const Workspace& w) {
+  const solve::System& s = w.system;
+  std::vector<double> largest(s.block.size() * kLanes, 0.0);
+  for_each_own_block(s, [&](std::size_t, std::size_t b) {
+    for (std::size_t row = s.row_of(b); row < s.row_of(b + 1); ++row)
+      for (int lane = 0; lane < kLanes; ++lane) {
+        double& of_cell = largest[b * kLanes + lane];
+        of_cell = std::max(of_cell, rest_of_move(w, make_address(row, lane)).norm());
+      }
+  });
+  for (const solve::Point p : w.op.ghost_points()) {
+    double& of_cell = largest[s.lane_of(p)];
+    of_cell = std::max(of_cell, rest_of_move(w, solve::address_of(p)).norm());
   }
-  for (const solve::Point p : w.op.ghost_points())
-    raise(rest_of_move(w, solve::address_of(p)).squaredNorm());
-  return std::sqrt(largest2);
+  return largest;
 }
 
 /// Force and stiffness of a contact: by its own law, or by that of the closed gap.
@@ -56,39 +51,71 @@ struct ActiveLaw {
   double force, stiffness;
 };
 
-/// Replaces the law of a contact and adds the change of its force to the system.
-void replace_law(const ActiveLaw& from, const ActiveLaw& to_law, const Vec3& normal,
-                 solve::Link& link, solve::System& s) {
-  const Vec3 change = (to_law.force - from.force) * normal;
-  RowVector<double>& to = link.b.exists() ? s.force : s.external_force;
+/// Part of a displacement along the normal of a contact that opens its gap, um.
+template <class Displacement>
+double opening(const solve::Stencil& stencil, const solve::Link& link, const Displacement& of) {
+  Vec3 r = Vec3::Zero();
+  for (int k = 0; k < stencil.n; ++k) r += stencil.weight[k] * of(stencil.address[k]);
+  double along = 0;
+  for (int k = 0; k < 3; ++k) along += static_cast<double>(link.normal[k]) * r[k];
+  return along;
+}
+
+/// Replaces the law of a contact. Adds the change of its force to force, right-hand side and
+/// residual, and that of its stiffness times displacements to residual and product.
+/// @return change of its stiffness in the matrix, nN/um
+double replace_law(const ActiveLaw& from, const ActiveLaw& to_law, const Vec3& normal,
+                   solve::Link& link, Workspace& w) {
+  solve::System& s = w.system;
+  const auto stiffness = static_cast<float>(to_law.stiffness);
+  const double stiffer =
+      s.stiffness_scale * (static_cast<double>(stiffness) - static_cast<double>(link.stiffness));
   const solve::Stencil stencil = solve::stencil_of(link);
-  for (int k = 0; k < stencil.n; ++k)
-    add_point(to.data(), stencil.address[k], stencil.weight[k] * change);
-  link.stiffness = static_cast<float>(to_law.stiffness);
+  const Vec3 direction(static_cast<double>(link.normal[0]), static_cast<double>(link.normal[1]),
+                       static_cast<double>(link.normal[2]));
+  const Vec3 force = (to_law.force - from.force) * normal;
+  const Vec3 resistance =
+      stiffer * opening(stencil, link, [&](Address a) { return rest_of_move(w, a); }) * direction;
+  const auto add = [&](RowVector<double>& to, const Vec3& v) {
+    for (int k = 0; k < stencil.n; ++k)
+      if (s.owns(solve::point_at(stencil.address[k])))
+        add_point(to.data(), stencil.address[k], stencil.weight[k] * v);
+  };
+  add(link.b.exists() ? s.force : s.external_force, force);
+  add(w.rhs, force);
+  add(w.cg.residual, force - resistance);
+  if (LinearisationPoint& point = w.linearisation; point.is_elsewhere())
+    add(point.product, stiffer * opening(stencil, link, [&](Address a) {
+                         return load_point(point.move.data(), a);
+                       }) * direction);
+  link.stiffness = stiffness;
+  return stiffer;
 }
 
 }  // namespace
 
 double gap_after(const Workspace& w, const solve::Link& link) {
-  const solve::Stencil stencil = solve::stencil_of(link);
-  Vec3 r = Vec3::Zero();
-  for (int k = 0; k < stencil.n; ++k) r += stencil.weight[k] * rest_of_move(w, stencil.address[k]);
-  double gap = static_cast<double>(link.gap);
-  for (int k = 0; k < 3; ++k) gap += static_cast<double>(link.normal[k]) * r[k];
-  return gap;
+  return static_cast<double>(link.gap) +
+         opening(solve::stencil_of(link), link, [&](Address a) { return rest_of_move(w, a); });
 }
 
 bool activate_closing(Workspace& w) {
   solve::Links& links = w.system.links;
+  const std::vector<double> rest = links.link.empty() ? std::vector<double>() : largest_rests(w);
   // No gap changes by more than its two sides move; their weights are rounded to float.
-  const double reach = 2.001 * largest_rest(w);
+  const auto reach = [&](const solve::Link& link) {
+    const auto of = [&](const solve::Side& side) {
+      return side.exists() ? rest[w.system.lane_of(side.point[0])] : 0;
+    };
+    return 1.001 * (of(link.a) + of(link.b));
+  };
   // 1: closes, 2: is active and opens
   std::vector<std::uint8_t> change(links.size(), 0);
   std::atomic<bool> wrong = false;
   for_each_index(links.size(), worth_threads(w.system.n_row), [&](std::size_t l) {
     const solve::LinkLaw& law = links.law[l];
     if (!(law.closed_stiffness > 0) || law.clearance <= 0) return;
-    if (law.clearance + kShallowDepth > reach && !links.is_closed(l)) return;
+    if (!links.is_closed(l) && law.clearance + kShallowDepth > reach(links.link[l])) return;
     const double end = clearance_at(gap_after(w, links.link[l]), links.link[l], law);
     if (links.is_closed(l)) {
       change[l] = end > 0 ? 2 : 0;
@@ -99,6 +126,7 @@ bool activate_closing(Workspace& w) {
     }
   });
   if (!w.system.ownership.ranks.any(wrong)) return false;
+  std::vector<solve::LinkChange> changes;
   links.closed.resize(links.size(), 0);
   for (std::size_t l = 0; l < links.size(); ++l) {
     if (change[l] == 0) continue;
@@ -106,13 +134,15 @@ bool activate_closing(Workspace& w) {
     const contact::Contact& contact = w.contacts.all[law.contact];
     const ActiveLaw own{contact.force, contact.slope},
         closed{-law.closed_stiffness * law.clearance, law.closed_stiffness};
-    links.closed[l] = change[l] == 1 ? 1 : 0;
-    if (links.closed[l] != 0)
-      replace_law(own, closed, contact.normal, links.link[l], w.system);
-    else
-      replace_law(closed, own, contact.normal, links.link[l], w.system);
+    const bool gained =
+        links.closed[l] == 0 && !has_matrix(links.link[l], w.system.stiffness_scale);
+    links.closed[l] = change[l];
+    const bool closes = links.is_closed(l);
+    const double stiffer =
+        replace_law(closes ? own : closed, closes ? closed : own, contact.normal, links.link[l], w);
+    changes.push_back({static_cast<std::uint32_t>(l), stiffer, gained});
   }
-  w.op.prepare(w.system);
+  w.op.update_links(changes);
   return true;
 }
 
@@ -126,9 +156,11 @@ bool pulls_open(const Workspace& w) {
 }
 
 Status settle_active_set(const World& world, Workspace& w, Effort& effort) {
+  const bool constrained = w.constraint.applies() || !w.constraint.anchored_row.empty();
   for (int change = 0; change < kMostChanges; ++change) {
     if (!activate_closing(w)) return Status::fine();
-    Status status = solve_again(world, w, effort);
+    const Status status = constrained || w.cg.load == 0 ? solve_again(world, w, effort)
+                                                        : solve_changed_links(world, w, effort);
     if (!status.ok) return status;
   }
   if (pulls_open(w)) return Status::failed("which contacts close within the step does not settle");

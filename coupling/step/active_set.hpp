@@ -24,7 +24,7 @@ inline constexpr double kControlledDepth = 0.2;
 /// Updates the active set after a solve: one further Newton iteration. If an open contact ends
 /// deeper than kControlledDepth, all open contacts that end closed get the repulsive branch of
 /// their law, p = -k gap, exact at the end of the step. Those that end open get their own law back.
-/// Adds the changed forces to the system and refreshes the operator.
+/// Brings forces, right-hand side and residual of own points up to date, and products. Collective.
 /// @return true if the set changed and the step has to be solved again
 bool activate_closing(Workspace& work);
 

@@ -91,6 +91,7 @@ void commit(double step, const Effort& effort, World& world, Workspace& w) {
   s.clock.accepted += 1;
   s.clock.cg_iterations += effort.cg_iterations;
   s.clock.solves += effort.solves;
+  s.clock.longest_solve = effort.longest_solve;
   s.clock.coarse = want_coarse(s, effort.cg_iterations / std::max(effort.solves, 1));
 }
 

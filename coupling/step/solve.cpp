@@ -15,6 +15,44 @@ namespace {
 constexpr int kMostDoublings = 5;
 constexpr int kMostIterations = std::numeric_limits<int>::max();
 
+solve::CgOptions cg_options(const World& world, const Workspace& w, const Effort& effort) {
+  solve::CgOptions options = world.params.numerics.cg;
+  // Solves that are repeated in a step take few iterations.
+  options.expected_iterations =
+      effort.solves == 0 ? static_cast<int>(world.state.clock.longest_solve) : 0;
+  // Cells suspended in liquid are coupled by little but adhesion: a shorter step does not improve
+  // the conditioning.
+  for (int k = 0; k < std::min(w.failed_solves, kMostDoublings); ++k)
+    options.max_iterations +=
+        std::min(options.max_iterations, kMostIterations - options.max_iterations);
+  return options;
+}
+
+solve::CgProblem cg_problem(const World& world, Workspace& w,
+                            std::span<const double> product = {}) {
+  return {w.op, w.rhs, world.state.clock.coarse ? &w.coarse : nullptr, product};
+}
+
+/// Corrects the rigid motion of every cluster after conjugate gradients, and fetches ghost points.
+Status finish_solve(const World& world, const solve::CgResult& result, Workspace& w,
+                    Effort& effort) {
+  effort.cg_iterations += result.iterations;
+  effort.longest_solve = std::max(effort.longest_solve, result.iterations);
+  ++effort.solves;
+  if (!result.status.ok) return result.status;
+  // A rigid error this small relative to a mesh edge is below the tolerance of the solver.
+  const solve::RigidResult rigid = solve::correct_rigid_modes(
+      w.op, {w.cg.residual, w.cg.product}, w.move, {w.position, w.active},
+      world.params.numerics.cg.tolerance, w.rigid);
+  if (rigid.corrected_groups > 0) {
+    w.op.apply(w.move, w.cg.product);
+    for_each_own_number(w.system,
+                        [&](std::size_t k) { w.cg.residual[k] = w.rhs[k] - w.cg.product[k]; });
+  }
+  w.op.fetch(w.move);
+  return Status::fine();
+}
+
 /// Solves for the whole displacement from the initial guess in w.move.
 /// @param from_point  the guess is the displacement to the point of linearisation
 Status solve_from_guess(const World& world, Workspace& w, bool from_point, Effort& effort) {
@@ -65,33 +103,27 @@ Status solve_again(const World& world, Workspace& w, Effort& effort) {
   return solve_from_guess(world, w, false, effort);
 }
 
+Status solve_changed_links(const World& world, Workspace& w, Effort& effort) {
+  const auto scope = w.timings.scope("solve");
+  const bool elsewhere = w.linearisation.is_elsewhere();
+  const RowVector<double>& product = w.linearisation.product;
+  // The solution is the whole displacement, not that from the point of linearisation.
+  if (elsewhere) for_each_own_number(w.system, [&](std::size_t k) { w.rhs[k] += product[k]; });
+  const solve::CgResult result =
+      solve::continue_cg(cg_problem(world, w), w.move, cg_options(world, w, effort), w.cg);
+  const Status status = finish_solve(world, result, w, effort);
+  if (elsewhere) for_each_own_number(w.system, [&](std::size_t k) { w.rhs[k] -= product[k]; });
+  return status;
+}
+
 Status solve_system(const World& world, Workspace& w, Effort& effort,
                     std::span<const double> product) {
   const auto scope = w.timings.scope("solve");
-  solve::CgOptions options = world.params.numerics.cg;
-  // Cells suspended in liquid are coupled by little but adhesion: a shorter step does not improve
-  // the conditioning.
-  for (int k = 0; k < std::min(w.failed_solves, kMostDoublings); ++k)
-    options.max_iterations +=
-        std::min(options.max_iterations, kMostIterations - options.max_iterations);
-  const bool coarse = world.state.clock.coarse;
-  if (coarse) w.coarse.prepare(w.op, {w.position, w.active, w.cg.residual, w.cg.product});
+  if (world.state.clock.coarse)
+    w.coarse.prepare(w.op, {w.position, w.active, w.cg.residual, w.cg.product});
   const solve::CgResult result =
-      solve::solve_cg({w.op, w.rhs, coarse ? &w.coarse : nullptr, product}, w.move, options, w.cg);
-  effort.cg_iterations += result.iterations;
-  ++effort.solves;
-  if (!result.status.ok) return result.status;
-  // A rigid error this small relative to a mesh edge is below the tolerance of the solver.
-  const solve::RigidResult rigid =
-      solve::correct_rigid_modes(w.op, {w.cg.residual, w.cg.product}, w.move,
-                                 {w.position, w.active}, options.tolerance, w.rigid);
-  if (rigid.corrected_groups > 0) {
-    w.op.apply(w.move, w.cg.product);
-    for_each_own_number(w.system,
-                        [&](std::size_t k) { w.cg.residual[k] = w.rhs[k] - w.cg.product[k]; });
-  }
-  w.op.fetch(w.move);
-  return Status::fine();
+      solve::solve_cg(cg_problem(world, w, product), w.move, cg_options(world, w, effort), w.cg);
+  return finish_solve(world, result, w, effort);
 }
 
 }  // namespace acinus::coupling

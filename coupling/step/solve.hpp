@@ -18,6 +18,11 @@ namespace acinus::coupling {
 /// Solves a changed system again, with the previous displacement as initial guess.
 [[nodiscard]] Status solve_again(const World& world, Workspace& work, Effort& effort);
 
+/// Solves again after changes of a few links, with the operator's preconditioner of before.
+/// @pre work.rhs and work.cg.residual, and work.linearisation.product if that is elsewhere, are up
+/// to date; no cell is constrained; work.cg.load is not 0
+[[nodiscard]] Status solve_changed_links(const World& world, Workspace& work, Effort& effort);
+
 /// Solves for work.move from its initial guess and the right-hand side in work.rhs, then corrects
 /// the rigid motion of every cluster.
 /// @param product  matrix times the initial guess, or empty

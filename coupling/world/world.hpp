@@ -120,6 +120,7 @@ struct Clock {
       0;                    ///< accepted steps that are part of a computed one (step/shorten.hpp)
   bool coarse = false;      ///< true: coarse space of the solver is on, by the effort of solves
   std::int64_t solves = 0;  ///< linear systems of accepted and rejected steps
+  std::int64_t longest_solve = 0;  ///< iterations, of the last step
   EventsDue due = EventsDue::kNone;
 };
 

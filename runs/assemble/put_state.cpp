@@ -248,6 +248,7 @@ void put_clock(const coupling::State& s, io::CheckpointData& d) {
                 [&](const char* name, double value) { d.put_number(name, value); });
   visit_counts(s.clock, [&](const char* name, std::int64_t value) { d.put_count(name, value); });
   d.put_count("clock/shortened", s.clock.shortened);
+  d.put_count("clock/longest_solve", s.clock.longest_solve);
 }
 
 }  // namespace

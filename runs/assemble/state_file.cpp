@@ -205,11 +205,13 @@ void get_state(const io::CheckpointData& d, const StateTypes& types, coupling::S
   get_substances(d, s);
   s.clock.phase = static_cast<coupling::Phase>(as_int(d, "clock/phase", d.count("clock/phase")));
   s.clock.coarse = d.count("clock/coarse") != 0;
-  // Files of 0.1.0 have neither of the next two.
+  // Files of 0.1.0 have neither of the next two, others may lack the third.
   if (d.contains("clock/events_due"))
     s.clock.due = static_cast<coupling::EventsDue>(
         std::min(as_int(d, "clock/events_due", d.count("clock/events_due")), 255));
   if (d.contains("clock/shortened")) s.clock.shortened = d.count("clock/shortened");
+  if (d.contains("clock/longest_solve"))
+    s.clock.longest_solve = as_int(d, "clock/longest_solve", d.count("clock/longest_solve"));
   visit_numbers(s.clock, s.balance,
                 [&](const char* name, double& value) { value = d.number(name); });
   visit_counts(s.clock, [&](const char* name, auto& value) { value = d.count(name); });

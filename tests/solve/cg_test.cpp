@@ -29,7 +29,7 @@ struct Solved {
   Eigen::VectorXd exact() const {
     return reference::make_dense(system).ldlt().solve(as_eigen(rhs));
   }
-  /// b - A x, worked out here.
+  /// Residual b - A x of the dense matrix.
   Eigen::VectorXd residual() const {
     return as_eigen(rhs) - reference::make_dense(system) * as_eigen(x);
   }
@@ -43,7 +43,7 @@ struct Solved {
     };
     return norm(residual()) / norm(as_eigen(rhs));
   }
-  /// Whether some pass ran in double.
+  /// True if a pass ran in double.
   bool used_double() const { return !work.full.direction.empty(); }
 };
 
@@ -140,7 +140,7 @@ TEST(Cg, LoadsFarOutOfRangeOfFloatsAreSolvedInFloat) {
   }
 }
 
-// Whatever the right-hand side, an indefinite diagonal block is told, never called solved.
+// With any right-hand side an indefinite diagonal block is an error.
 TEST(Cg, IndefiniteSpringIsReported) {
   static const BlockPattern kPair{2, {{0, 1}}, {}, {}};
   auto random = reference::stream(31);
@@ -298,6 +298,33 @@ TEST(Cg, AProductOfTheGuessThatIsKnownChangesNothing) {
     t.x = random_vector_of(t.system, 14);
     t.result = solve_cg({t.op, t.rhs, nullptr, product}, t.x, {1e-8, 2000, precision}, t.work);
     EXPECT_LT(t.true_residual(), 1e-7);
+  }
+}
+
+TEST(Cg, ContinuesAfterAChangeWithThePreconditionerOfBefore) {
+  for (const Precision precision : kBoth) {
+    Solved s(precision);
+    s.run(1e-8);
+    const double load = s.work.load;
+    Link& link = s.system.links.link[1];  // twice as stiff and as rough
+    link.stiffness *= 2;
+    link.friction *= 2;
+    s.rhs[0] += 0.3;
+    s.op.update_links({});
+    const Eigen::VectorXd residual = s.residual();
+    std::ranges::copy(residual, s.work.residual.begin());
+    const CgProblem problem{s.op, s.rhs};
+    const CgOptions options{1e-6, 2000, precision};
+    s.result = continue_cg(problem, s.x, options, s.work);
+    ASSERT_TRUE(s.result.status.ok) << s.result.status.cause;
+    EXPECT_GT(s.result.iterations, 0);
+    EXPECT_EQ(s.work.load, load);
+    const std::vector<double> left(s.work.residual.begin(), s.work.residual.end());
+    EXPECT_LE(std::sqrt(s.op.precondition(left, {})), 1e-6 * load);
+    EXPECT_LT((as_eigen(left) - s.residual()).norm(), 1e-12 * as_eigen(s.rhs).norm());
+    const std::vector<double> x = s.x;
+    EXPECT_EQ(continue_cg(problem, s.x, options, s.work).iterations, 0);
+    EXPECT_EQ(s.x, x) << "what is solved stays as it is";
   }
 }
 

@@ -350,6 +350,19 @@ TEST(MergedProduct, MergingTwiceChangesNothing) {
   EXPECT_EQ(product(op, x), once);
 }
 
+TEST(MergedProduct, IsThatOfTheContactsWhereNoneCanBeMerged) {
+  Tissue t(93, 1);
+  t.add_elements();
+  for (const Kind& kind : kKinds)
+    if (!kind.is_merged) t.add_contacts(kind);
+  const auto x = random_vector_of<float>(t.system, 94);
+  Operator op;
+  op.prepare(t.system);
+  const std::vector<float> before = product(op, x);
+  op.merge_links();
+  EXPECT_EQ(product(op, x), before);
+}
+
 TEST(MergedProduct, ContactsAreReadAgainOnlyIfPreparedAgain) {
   Tissue t(91, 1);
   for (int k = 0; k < 20; ++k) t.add_contacts(kKinds[0]);
@@ -420,10 +433,10 @@ struct SolvedTissue {
   Operator op;
   CgResult result;
 
-  SolvedTissue(double tolerance, Precision precision) {
+  SolvedTissue(double tolerance, Precision precision, int expected_iterations = 0) {
     op.prepare(system);
     CgWorkspace work;
-    result = solve_cg({op, rhs}, x, {tolerance, 2000, precision}, work);
+    result = solve_cg({op, rhs}, x, {tolerance, 2000, precision, expected_iterations}, work);
   }
   bool is_merged() const {
     const auto probe = random_vector_of<float>(system, 90);
@@ -469,6 +482,14 @@ TEST(MergedSolve, ShortOnesDoNotMerge) {
   EXPECT_GT(s.result.iterations, 0);
   EXPECT_LT(s.result.iterations, 10);
   EXPECT_FALSE(s.is_merged());
+}
+
+TEST(MergedSolve, OnesThatAreExpectedToBeLongMergeAtOnce) {
+  const SolvedTissue s(0.3, Precision::kMixed, 12);
+  ASSERT_TRUE(s.result.status.ok);
+  EXPECT_LT(s.result.iterations, 10);
+  EXPECT_TRUE(s.is_merged());
+  EXPECT_LE(s.true_residual(reference::make_dense(s.system)), 0.3);
 }
 
 }  // namespace
