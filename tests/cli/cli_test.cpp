@@ -183,6 +183,12 @@ TEST(Cli, PeriodsThatFillTheDiskOrNeverEndAreRefused) {
   EXPECT_EQ(call("check " + kScene + " --set time.end=1h --set 'output.every=0.0036 s'").code, 0);
 }
 
+TEST(Cli, ExplainsAnObservableAndABlockOfOneName) {
+  const std::string text = call("explain cells").text;
+  EXPECT_CONTAINS(text, "cells\n  number of cells\n");
+  EXPECT_CONTAINS(text, "  type     block\n");
+}
+
 TEST(Cli, ManualPageHasEveryCommandAndNoStrayRequest) {
   const std::string page = call("explain --man").text;
   for (const char* command : {"run", "explain", "infer", "permedcoe", "bench"})

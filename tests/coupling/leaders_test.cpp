@@ -1,4 +1,4 @@
-/// Who leads the tissue toward the vein.
+/// Choice of leading cells.
 
 #include "coupling/migration/leaders.hpp"
 
@@ -155,6 +155,31 @@ TEST(Leaders, AtTheBorderKeepTheirPlaceInANarrowerWay) {
   EXPECT_EQ(find_leaders(m, behind_a_gate(1.25, false))[0], 0);
   EXPECT_EQ(find_leaders(m, behind_a_gate(1.25, true))[0], 1);
   EXPECT_EQ(find_leaders(m, behind_a_gate(1.05, true))[0], 0);
+}
+
+TEST(Leaders, OfTheBorderTakeMovingWallsWhereTheyAre) {
+  World w = make_test_world({{Vec3(140, 0, 0), false}, {Vec3(110, 0, 0), false}});
+  w.params.motility = by(Leaders::kBorder);
+  w.params.motility.leader_grid = 10;
+  for (const double side : {1.0, -1.0}) {
+    contact::Plane wall;
+    wall.point = side * Vec3(0, 214, 0);
+    wall.normal = -side * Vec3::UnitY();
+    wall.speed = 1;
+    wall.travel = 300;
+    w.params.boundary.planes.push_back(wall);
+  }
+  w.state.clock.phase = Phase::kRun;
+  w.state.clock.origin = 50;
+  const std::vector<double> radius{12, 12};
+  Choice leader;
+  std::int64_t interval = -1;
+  w.state.clock.time = 200;  // 64 um from the cells
+  choose_leaders(w.params, w.state, {}, radius, leader, interval);
+  EXPECT_EQ(leader, (Choice{1, 1}));
+  w.state.clock.time = 250;  // 14 um from them
+  choose_leaders(w.params, w.state, {}, radius, leader, interval);
+  EXPECT_EQ(leader, (Choice{0, 1}));
 }
 
 TEST(Leaders, AreChosenOncePerIntervalOfTheirGrid) {

@@ -58,6 +58,19 @@ TEST(SceneContactErrors, AdhesionsOfPairsNameAnotherTypeOnce) {
   EXPECT_CONTAINS(failure(types(R"({"type": "b"})", "")), "adhesion");
 }
 
+TEST(SceneCapsuleErrors, CapsulesAreWiderThanTheirCells) {
+  const auto capsule = [](const std::string& keys) {
+    return with_block(R"("capsule": {)" + keys + "}");
+  };
+  EXPECT_CONTAINS(
+      failure(capsule(R"("radius": "12 um")")),
+      R"(/capsule/radius = "12 um": must exceed the radius of "hepatocyte" cells, "12)");
+  EXPECT_CONTAINS(
+      failure(capsule(R"("radius": "20 um", "speed": "1 um/h", "min_radius": "11 um")")),
+      R"(/capsule/min_radius = "11 um": must exceed the radius of "hepatocyte" cells)");
+  EXPECT_EQ(failure(capsule(R"("radius": "12.1 um")")), "");
+}
+
 TEST(SceneVesselErrors, FlexibleVesselsNeedWhatTheyGoWith) {
   const std::string lobule = R"("lobule": {}, "vessels": {"flexible": true})";
   const std::string start = "/vessels/flexible = true: ";
