@@ -72,7 +72,7 @@ std::string sidecar_of(const std::string& path) {
 
 void replace_run_file(const std::string& from, const std::string& to) {
   sync_file(from);
-  // In between the file has no sums: whoever looks then takes it as it is.
+  // In between the file has no sums: readers then accept it without check.
   h5::PageSums::remove(to);
   replace_file(from, to);
   replace_file(h5::sums_of(from), h5::sums_of(to));

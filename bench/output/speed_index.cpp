@@ -28,7 +28,7 @@ double measure_speed_index() {
     kept += x[kSize / 2];
   }
   std::ranges::sort(time);
-  // The sum is used, so that no compiler leaves the work out.
+  // The sum is used, so that no compiler removes the loop.
   return std::isfinite(kept) ? time[time.size() / 2] : 0;
 }
 

@@ -69,7 +69,7 @@ BenchTable bench_skipping(const BenchOptions&) {
   for (const char* quadrature : {"3-point", "nodes"}) {
     const StepCase usual = clump_case(quadrature, kClumpSkin, 0, false);
     constexpr double kNoSkin = 0.01;      // um: lists are made at nearly every step
-    constexpr double kNoModulus = 1e-15;  // N/m: worked out for nothing
+    constexpr double kNoModulus = 1e-15;  // N/m: computed without effect
     table.push_back(
         compare("contact lists with skin", usual, clump_case(quadrature, kNoSkin, 0, false)));
     table.push_back(compare("a term whose coefficient is zero", usual,

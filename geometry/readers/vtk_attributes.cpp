@@ -48,7 +48,7 @@ bool VtkParser::attribute(const std::string& keyword) {
     scalars();
     return true;
   }
-  // Components by keyword; 0 = told in the header line.
+  // Components by keyword; 0: given in the header line.
   static constexpr std::pair<const char*, int> kKinds[] = {
       {"vectors", 3},       {"normals", 3},
       {"tensors", 9},       {"tensors6", 6},

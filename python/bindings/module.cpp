@@ -157,7 +157,7 @@ py::dict cells_of(SteppedScene& simulation) {
   return t;
 }
 
-/// As `acinus run`.   @return its exit code
+/// Runs a scene like `acinus run`.   @return its exit code
 int run(const std::string& scene_name, const std::string& out, const std::vector<std::string>& set,
         int threads, bool overwrite, bool resume) {
   runs::RunOptions options;

@@ -86,7 +86,7 @@ io::FileLock prepare_folder(const std::string& folder, const RunOptions& options
   check(::access(folder.c_str(), W_OK) == 0,
         fmt::format("--out {}: the folder cannot be written. Choose another --out.", folder),
         Exit::kFileError);
-  // Before the folder is looked at: what another process is about to put there counts.
+  // Before the check of the folder: another process may be about to write into it.
   std::optional<io::FileLock> lock = io::FileLock::try_take(lock_file(folder), 1);
   if (!lock) throw being_written(folder);
   check_use(folder, options);

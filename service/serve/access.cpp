@@ -85,7 +85,7 @@ std::optional<HttpReply> refuse(const ServiceAccess& access, const HttpRequest& 
                : std::optional(refused("the token is not that of this service"));
   if (!access.sessions.knows(session_of(access, request)))
     return refused("a token is needed: the line that `acinus serve` prints has it");
-  // A browser sends cookies along whoever made it ask; what changes something must say who did.
+  // A browser sends cookies with requests of any page: a request for a change must name its origin.
   if (!request.reads() && origin.empty() && request.header("sec-fetch-site") != "same-origin")
     return error_reply(403, "Forbidden", "a cookie alone changes nothing: no Origin was sent");
   return std::nullopt;

@@ -1,4 +1,4 @@
-/// Which cells of a clump stand for tissue, what they mean together, and how wide capsules are.
+/// Inner cells of a clump, means over them, and radii of capsules.
 
 #include "calibration/compression.hpp"
 

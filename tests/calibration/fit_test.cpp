@@ -180,7 +180,7 @@ TEST(Fit, LeavesAPairOutThatIsNoSofterThanTheClumpOrDoesNotAdhere) {
 
 TEST(Fit, MakesNoTableOfACompressionThatEndsWhereItPressesLeast) {
   const cbm::StiffnessLaw wanted{{}, {{0.05, 0}, {0.09, 0.1}, {0.11, 5}, {0.3, 6}}, 0.3};
-  for (const double end : {0.03, 0.3}) {  // let go; or so far in that it counts no more
+  for (const double end : {0.03, 0.3}) {  // apart, or deeper than what counts
     Compression compression = compression_with(wanted, 0.1);
     compression.snapshots.push_back(lattice(end));
     compression.snapshots.back().force.assign(compression.snapshots[0].center.size(), -100);

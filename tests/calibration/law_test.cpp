@@ -39,7 +39,7 @@ class LawFile : public testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
   std::string path() const { return folder_ + "/law.json"; }
 
-  /// What read_law says of the file after a change of its text.
+  /// Message of read_law about the file after a change of its text.
   std::string message(const std::string& from, const std::string& to) const {
     std::string text = law_text(make_law());
     const auto at = text.find(from);

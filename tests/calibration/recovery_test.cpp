@@ -1,4 +1,4 @@
-/// How a quantity goes back after a release.
+/// Recovery of a quantity after a release.
 
 #include "calibration/recovery.hpp"
 

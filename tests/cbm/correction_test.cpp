@@ -306,7 +306,7 @@ Eigen::MatrixXd frozen_matrix(Spheres& s, double h) {
   return fixed;
 }
 
-/// What a shell that shrinks round 27 spheres, down to this radius in um, shows.
+/// Measures of 27 spheres in a shell that shrinks.
 struct Compression {
   double lowest = 1, highest = 0;    ///< d of the central one
   double overshoot = 0, growth = 0;  ///< of steps: -1 and 1 would be neutral

@@ -68,7 +68,7 @@ struct Spheres {
   Vec3 external_force(std::size_t cell) const {
     return load_point(system.external_force.data(), cell_address(0, cell));
   }
-  /// As after an accepted step.
+  /// Takes over the touching pairs, like an accepted step.
   void accept() { state.touching = work.touching; }
   void move(std::size_t cell, const Vec3& to) {
     store_point(state.position.data(), cell_address(0, cell), to);

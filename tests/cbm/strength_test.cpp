@@ -174,7 +174,7 @@ TEST(Strength, IsForSistersOnly) {
   EXPECT_EQ(born.force(1), old.force(1));
   EXPECT_EQ(born.force(0), -old.force(1));
   EXPECT_EQ(born.force(2), Vec3::Zero());
-  born.mother = {-1, -1, -1};  // there from the start: nobody is a sister
+  born.mother = {-1, -1, -1};  // initial cells: none is a sister
   born.find();
   EXPECT_EQ(born.sphere().size(), old.sphere().size());
 }

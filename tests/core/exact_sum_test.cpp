@@ -32,7 +32,7 @@ double reference(const std::vector<double>& terms) {
   return value;
 }
 
-/// Of any size a double can have, subnormal ones among them.
+/// Random terms of all sizes of a double, subnormal ones included.
 std::vector<double> any_sizes(std::mt19937_64& random, int n, int lowest, int highest) {
   std::uniform_int_distribution<int> power(lowest, highest);
   std::uniform_real_distribution<double> digits(-1, 1);

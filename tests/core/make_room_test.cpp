@@ -9,7 +9,7 @@
 namespace acinus {
 namespace {
 
-/// How often an array moves that n more elements are added to, one at a time.
+/// Number of moves of an array while n elements are added one at a time.
 template <class Add>
 int count_moves(std::vector<double>& v, int n, const Add& add) {
   int moves = 0;

@@ -45,7 +45,7 @@ TEST(Ranks, SerialIsTheIdentity) {
   ranks.barrier();
 }
 
-// Whoever has which of the terms, the sum is that of one process.
+// The sum is that of one process for any distribution of the terms.
 TEST(Ranks, SumsExactly) {
   const Ranks ranks = Ranks::world();
   const auto term = [](int k) { return std::sin(1.0 + k) * std::pow(10.0, k % 37 - 18); };

@@ -1,4 +1,4 @@
-/// Where deformable cells adhere.
+/// Measures of adhesion of deformable cells.
 
 #include "coupling/measure/adhesion.hpp"
 

@@ -116,7 +116,7 @@ TEST(Audit, TunnelledCellsAreSeen) {
   EXPECT_NEAR(concentric.dcm_dcm.depth_um, 9, 0.5);
   const auto deep = audit_bodies({large, ball({14, 0, 0}, 12)});
   EXPECT_NEAR(deep.dcm_dcm.depth_um, 10, 0.5);
-  // Coinciding cells have every sample on the other's surface: only the centroid tells.
+  // Coinciding cells have every sample on the other's surface: only the centroid shows the overlap.
   const Surface coarse = ball(Vec3::Zero(), 12, 42);
   const auto same = audit_bodies({coarse, coarse});
   EXPECT_NEAR(same.dcm_dcm.depth_um, 12, 1);

@@ -98,7 +98,7 @@ double distance_of(const cbm::State& s, std::size_t a, std::size_t b) {
   return (cbm::center_of(s, a) - cbm::center_of(s, b)).norm();
 }
 
-/// What happens in the day after a division.
+/// Course of the day after a division.
 struct Course {
   bool completed = false;
   int rejections = 0;
@@ -210,7 +210,7 @@ TEST(CbmDivision, InAClumpAtRestIsGentle) {
         // they exert lies between pull-off and nothing.
         EXPECT_LT(c.first_jump, pull_off);
         // Later the force between the daughters changes most: the ramp adds this much in a step,
-        // and what they move apart takes away from it. A neighbour may let go meanwhile.
+        // and their motion apart reduces it. A neighbour may detach meanwhile.
         EXPECT_LT(c.jump, step / kRamp * birth_force + pull_off);
         // A fiftieth of a radius in a minute; nothing moves a neighbour but a daughter.
         EXPECT_LT(c.neighbour_move, c.daughter_move);

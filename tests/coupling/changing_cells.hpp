@@ -56,7 +56,7 @@ inline Region ball(const Vec3& center, double radius) {
   return r;
 }
 
-/// What a change of one cell did, at once.
+/// Immediate effect of the change of model of one cell.
 struct Jump {
   EventKind kind{};         ///< kPromotion, kPromotionWaits or kDemotion
   double before = 0;        ///< kPa, its pressure

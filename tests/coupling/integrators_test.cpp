@@ -269,7 +269,7 @@ TEST(Newton, OneVeryLongStepEndsWhereManyStepsEnd) {
   }
 }
 
-// The matrix holds friction and stiffness in one; what is friction in it is worked out apart.
+// The matrix holds friction and stiffness together; its friction is computed separately.
 TEST(Friction, OfTheMatrixIsThatOfOneWithoutStiffness) {
   for (const double across : {1.0, 0.3, 0.0}) {
     World w = make_test_world(checkered_cube(23.5), 60, 42);

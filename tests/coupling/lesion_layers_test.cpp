@@ -1,4 +1,4 @@
-/// How many cells deep a cell lies behind the edge of the lesion.
+/// Depth of cells behind the edge of the lesion, in cells.
 
 #include "coupling/migration/lesion_layers.hpp"
 

@@ -1,5 +1,4 @@
-/// What a step does must not depend on when the lists of near spheres were made: a resumed run
-/// makes them anew.
+/// Steps do not depend on the age of the lists of near spheres: a resumed run makes them anew.
 
 #include <gtest/gtest.h>
 

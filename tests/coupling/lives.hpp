@@ -46,7 +46,7 @@ inline void begin_with_mothers(World& w) {
   });
 }
 
-/// What happens to the cells at a later time, with nothing moved meanwhile.
+/// Events of life at a later time, without motion before it.
 inline LifeReport look(World& w, double time) {
   w.state.clock.time = time;
   SizedWorkspace work(w);

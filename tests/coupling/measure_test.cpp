@@ -1,4 +1,4 @@
-/// What a run reports of each cell.
+/// Measures of single cells.
 
 #include "coupling/measure/measure.hpp"
 

@@ -31,7 +31,7 @@ World pressed_cell(bool extrapolate) {
   return w;
 }
 
-/// Steps it takes from 2.5 h to 3.5 h, where the cell bears some hundred Pa.
+/// Number of steps from 2.5 h to 3.5 h, at a cell pressure of some hundred Pa.
 std::int64_t steps_under_pressure(bool extrapolate) {
   World w = pressed_cell(extrapolate);
   SizedWorkspace work(w);
@@ -51,9 +51,9 @@ TEST(LookAhead, DoesNotSwingABulgeBetweenSpheres) {
   EXPECT_LT(static_cast<double>(ahead), 2 * static_cast<double>(plain));
 }
 
-// A sphere carries the pressure of the cell that presses on it, and what the tension of the dented
-// surface adds: as a bed by a dent of that over its stiffness. When the bed was as wide as the area
-// at rest of the cell, dents ran away, the cell flowed through one sphere and then the other.
+// The load of a sphere is the pressure of the cell on it and the tension of the indented surface.
+// It is an elastic bed: the depth is this load over its stiffness. With a bed as wide as the area
+// at rest of the cell the depth grew without limit, and the cell flowed through the spheres.
 TEST(PressedCell, DentsASphereAsMuchAsItsPressureSays) {
   World w = pressed_cell(false);
   w.params.boundary.capsules[0].min_radius = 14.5;
@@ -70,8 +70,8 @@ TEST(PressedCell, DentsASphereAsMuchAsItsPressureSays) {
     const double pressure = measure_cells(w, work).front().cytosol_pressure;
     std::printf("%.2f h: pressure %.0f Pa, deepest dent %.2f um, of its bed %.0f Pa\n", k / 4.0,
                 1e3 * pressure, depth, 1e3 * bed * depth);
-    // The mean over a round dent is half of what the bed carries where it is deepest; tension adds
-    // 2 T/R, some 50 Pa.
+    // The mean over a round indentation is half of the largest load of the bed; tension adds 2 T/R,
+    // some 50 Pa.
     EXPECT_LT(bed * depth, 2 * pressure + 0.1);
   }
 }

@@ -1,4 +1,4 @@
-/// Which cells enter the cycle: layers, rates, windows, the number wanted; crowding.
+/// Entry of cells into the cycle: layers, rates, windows, the number wanted; crowding.
 
 #include "coupling/life/proliferation.hpp"
 
@@ -67,7 +67,7 @@ TEST(Proliferation, EntersWithTheRateOfItsLayerWithinTheWindow) {
   Proliferation p;
   p.rate = {{1, 1, 0.2 / kHour, 0, 10 * kHour}, {2, 3, 0.02 / kHour, 0, 10 * kHour}};
   World w = make_layers(4, 250, p);
-  w.params.life.type[0].time = 1000 * kHour;  // nobody divides meanwhile
+  w.params.life.type[0].time = 1000 * kHour;  // no cell divides meanwhile
   begin_life(w);
   for (double t = 600; t <= 20 * kHour; t += 600) look(w, t);
   std::array<double, 4> share{};
@@ -75,7 +75,7 @@ TEST(Proliferation, EntersWithTheRateOfItsLayerWithinTheWindow) {
     if (w.state.cycle[c.index].fate == Fate::kGrow) share[lineage_of(w.state, c) % 4] += 1.0 / 250;
   });
   std::printf("shares by layer: %.3f %.3f %.3f %.3f\n", share[0], share[1], share[2], share[3]);
-  // 1 - exp(-rate * window) (the look at t = 0 is not in the window of 59 looks: 1/60 of it less);
+  // 1 - exp(-rate * window) (the draw at t = 0 is not in the window of 59 draws: 1/60 of it less);
   // standard error sqrt(p q / 250) = 0.022 and 0.024.
   EXPECT_NEAR(share[0], 1 - std::exp(-2 * 59.0 / 60), 4 * 0.022);
   EXPECT_NEAR(share[1], 1 - std::exp(-0.2 * 59.0 / 60), 4 * 0.024);

@@ -179,7 +179,7 @@ TEST(Sleep, CellsThatGrowOrAreJustBornStayAwake) {
   EXPECT_TRUE(is_asleep(w.state, 0)) << "at the look after it has forgotten its birth";
   EXPECT_FALSE(is_asleep(w.state, 1));
   w.params.life.rule.clear();
-  w.params.life.rule.emplace_back().until = 0;  // nobody rests any more
+  w.params.life.rule.emplace_back().until = 0;  // no cell rests from now on
   run_for(w, work, 600);
   EXPECT_FALSE(is_asleep(w.state, 2)) << "grows again";
 }

@@ -233,8 +233,8 @@ TEST(VesselTree, ActsOnCellsAsTheyActOnIt) {
   }
 }
 
-/// Where a vessel bends around a sphere, both segments of a joint touch it: together as one does,
-/// as long as they are nearly straight.
+/// Contact of a sphere with both segments of a joint: together they act like one segment as long as
+/// they are nearly straight.
 TEST(VesselTree, TouchesASphereOnceAtAJointThatBends) {
   const auto force = [](double angle) {
     TubeMaterial material = kSinusoid;

@@ -61,7 +61,7 @@ TEST(WallMesh, LiesWhereTheConesAre) {
   EXPECT_LT(worst, 0.02);
 }
 
-/// What is buried in other vessels has no wall of its own: cones stand for it.
+/// A segment inside other vessels has no wall of its own and is replaced by a cone.
 TEST(WallMesh, FallsBackOnConesWhereThereIsNoWall) {
   geometry::Network n = fork();
   n.node.push_back(Vec3(-3, 0, 0));

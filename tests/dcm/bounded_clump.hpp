@@ -66,7 +66,7 @@ inline std::vector<double> gaps_of(const Clump& c) {
 /// Distance of the numbers of partners of different kinds.
 inline constexpr int kPartner = 1000000;
 
-/// What meets what, to tell whether a small move kept the closest features.
+/// Closest features of all contacts, to compare before and after a small move.
 inline std::vector<std::array<int, 4>> features_of(const Clump& c) {
   std::vector<std::array<int, 4>> f;
   for (const contact::Contact& k : c.contacts.all)

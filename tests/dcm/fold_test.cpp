@@ -80,7 +80,7 @@ Cells make_collapsed(double share) {
   return c;
 }
 
-/// Compares the force with differences of the energy, and looks at the matrix.
+/// Compares the force with differences of the energy, and checks that the matrix is semi-definite.
 void expect_consistent(Cells& c, const std::string& what) {
   add_bending(table_one(), c.view(), c.system);
   double scale = 0, worst = 0;

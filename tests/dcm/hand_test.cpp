@@ -1,4 +1,4 @@
-/// Values worked out on paper, on a regular tetrahedron of edge a: circumradius sqrt(3/8) a,
+/// Values computed by hand on a regular tetrahedron of edge a: circumradius sqrt(3/8) a,
 /// dihedral arccos(1/3), height sqrt(2/3) a, volume a^3/(6 sqrt 2).
 
 #include <gtest/gtest.h>

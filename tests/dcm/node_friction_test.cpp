@@ -133,8 +133,7 @@ TEST(NodeFriction, IsSymmetricSemiDefiniteAndBlindToTranslation) {
   EXPECT_LT((a * shift).cwiseAbs().maxCoeff(), 1e-12 * size);  // of sums over 20 pairs
 }
 
-/// What friction takes up while all cells grow about one point with the rate 1, nN um/s, over their
-/// friction.
+/// Dissipation while all cells grow about one point with the rate 1, nN um/s, over their friction.
 double damping_of_stretch(int n_node, bool nodes) {
   double sum = 0, friction = 0;
   for (int k = 0; k < 6; ++k) {

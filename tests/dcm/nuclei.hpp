@@ -67,7 +67,7 @@ struct NucleatedCells {
     for (int i = 0; i < n_point(); ++i) f = std::max(f, force(lane, i).norm());
     return f;
   }
-  /// What adds forces, as a step does it.
+  /// Adds the forces of links or of contacts, like a step.
   void add_links() { add_nucleus_links(state, std::span(&params, 1), lanes, system); }
   void add_contacts() {
     find_contacts();

@@ -1,4 +1,4 @@
-/// What is inside a cell: shell, links and contact of a nucleus.
+/// Nucleus of a cell: shell, links and contact.
 
 #include "dcm/nucleus.hpp"
 

@@ -89,7 +89,8 @@ Cells make_tense_cells(int n_node = 162) {
   return c;
 }
 
-/// What the force of a step is the gradient of: kept f l + 1/2 share k (l - l0)^2 over the edges.
+/// Energy whose gradient is the force of a step: sum of kept f l + 1/2 share k (l - l0)^2 over
+/// edges.
 double step_energy(const Cells& c, const Params& p, std::size_t lane) {
   const SeriesStep h =
       series_step(p.spring_stiffness, p.series_friction, 1 / c.system.friction_scale);

@@ -140,7 +140,7 @@ TEST(MatchVolume, RefusesWhatItCannotReach) {
   EXPECT_EQ(node, before);
 }
 
-/// What the daughters of one kind of mother look like.
+/// Statistics of the daughters of one kind of mother.
 struct Tally {
   int n_case = 0, n_split = 0;
   std::array<int, 5> failure{};

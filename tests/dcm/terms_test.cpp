@@ -1,4 +1,4 @@
-/// What every term of the deformable cell owes: gradient, balance, invariance, a semi-definite
+/// Properties of every term of the deformable cell: gradient, balance, invariance, semi-definite
 /// matrix.
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #pragma once
-/// What reads files that others wrote, changed or damaged. Whatever stands in them, each reader
-/// ends with a result or with an Error that says something; all else is a fault.
+/// Readers of files that others wrote, changed or damaged. With any content each reader ends with a
+/// result or with an Error that has a message; all else is a fault.
 
 #include <span>
 #include <string>

@@ -51,7 +51,7 @@ void expect_equal_to_decoded_copy(const std::string& path, std::size_t n_node,
   }
 }
 
-/// What an artery traced with a diameter at every node measures.
+/// Measures of an artery traced with a diameter at every node.
 struct Artery {
   std::size_t n_node = 0;
   double low = 0, high = 0, first = 0;  ///< radius, um

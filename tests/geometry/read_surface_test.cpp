@@ -150,7 +150,7 @@ TEST(ReadSurface, ObjWithSlashesNegativesAndContinuation) {
   EXPECT_NEAR(compute_volume(bodies[0].node, bodies[0].triangle), 6, 1e-14);
 }
 
-/// As Blender, MeshLab and others write it: more properties than are needed, both binary orders.
+/// Files in the form of Blender, MeshLab and others: unused properties, both binary orders.
 TEST(ReadSurface, PlyOfAllKinds) {
   const TempFolder folder;
   const Surface box = make_box(Vec3(1, 2, 3));

@@ -1,4 +1,4 @@
-/// What a kill, a full disk or a missing permission leaves behind. Forks before any thread exists.
+/// Run files after a kill, on a full disk and without permission. Forks before any thread exists.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>

@@ -193,7 +193,7 @@ TEST(RunFile, SamplesBetweenFramesSurviveARestart) {
   EXPECT_EQ(RunReader(path).series().at("time"), (std::vector<double>{0, 1, 2, 3, 4, 50}));
 }
 
-/// What is measured of frame k.
+/// Observables of frame k.
 std::vector<SeriesValue> observed(int k) {
   return {{"time", "s", 60.0 * k}, {"cells", "1", 3.0 + k}, {"area", "um^2", 0.25 * k * k}};
 }
@@ -342,7 +342,7 @@ TEST(RunFile, FramesMustFitTogether) {
                [&] { run.append_series(other); });
 }
 
-/// Shapes and numbers that only damage can make: nobody may follow them out of an array.
+/// Shapes and indices that only damage can make: none may lead out of an array.
 TEST(RunFile, ShapesAndCornersThatDoNotFitAreDamage) {
   const Folder folder("run_shapes");
   const std::string path = folder / "run.vtkhdf";

@@ -1,4 +1,4 @@
-/// Run files with bytes that nobody wrote: found, told, and what can still be read goes on.
+/// Run files with damaged bytes: damage is found and reported, and readable frames are kept.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -1,6 +1,6 @@
 /// Plants a sum of forces that two threads add to without a lock: ThreadSanitizer must tell it.
-/// With the argument `clean` the same sum is made as the project makes it, in fixed parts: nothing
-/// may be told.
+/// With the argument `clean` the same sum is made as the project makes it, in fixed parts: no
+/// race may be reported.
 
 #include <array>
 #include <cstdio>

@@ -1,6 +1,6 @@
 #pragma once
 /// Matrix of a System entry by entry, from what each element is said to be. The index of an
-/// unknown is its place in the [row][3][lane] arrays. Everything is worked out in double from the
+/// unknown is its place in the [row][3][lane] arrays. All entries are computed in double from the
 /// numbers as stored.
 
 #include <Eigen/Dense>
@@ -148,7 +148,7 @@ inline Eigen::MatrixXd make_zero(const solve::System& s) {
   return Eigen::MatrixXd::Zero(n, n);
 }
 
-/// What is kept as small elements: springs, hinges, faces, beams and contacts.
+/// Matrix of the small elements: springs, hinges, faces, beams and contacts.
 inline Eigen::MatrixXd make_dense_elements(const solve::System& s) {
   Eigen::MatrixXd a = make_zero(s);
   for (std::size_t b = 0; b < s.block.size(); ++b)

@@ -28,8 +28,8 @@ inline double plain_distance_to_triangle(const Vec3& p, const Vec3& a, const Vec
                    plain_distance_to_segment(p, c, a)});
 }
 
-/// Whether a ray from p crosses the surface an odd number of times. The direction is odd on
-/// purpose: a ray through an edge would be counted twice.
+/// True if a ray from p crosses the surface an odd number of times. Its direction is along no axis:
+/// a ray through an edge would be counted twice.
 inline bool plain_inside(const Vec3& p, std::span<const Vec3> node,
                          std::span<const std::array<int, 3>> triangle) {
   const Vec3 ray(0.61803398875, 0.41421356237, 0.66913060636);

@@ -47,7 +47,7 @@ TEST_F(Calibrate, WritesALawThatScenesUseAndRunsThatCompare) {
   EXPECT_GT(law["a1_kPa"], 0);
   EXPECT_GE(law["wall_recess"], 0);
   EXPECT_NEAR(law["cbm"]["young_kPa"].get<double>(), 0.45, 1e-12);
-  // One inner cell of 15: told on the terminal, in the report and in the law.
+  // One inner cell of 15: a warning on the terminal, in the report and in the law.
   for (const char* part : {"acinus: warning: law.json: cells that are not at the capsule: 1;",
                            "--cells 59", "fit for other scenes                         no"})
     EXPECT_CONTAINS(first.text, part);
@@ -74,7 +74,7 @@ TEST_F(Calibrate, WritesALawThatScenesUseAndRunsThatCompare) {
   EXPECT_EQ(summary("used")["state_hash"],
             summary("law.calibration/compression_corrected")["state_hash"]);
 
-  // A law for other cells is told.
+  // A law for other cells causes a warning.
   words = run_words("clump.json", "other", spheres);
   words.insert(words.end(), {"--set", "cell_types.a.dcm.bulk_modulus=5 kPa"});
   std::erase(words, std::string("--quiet"));

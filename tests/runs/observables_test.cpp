@@ -1,4 +1,4 @@
-/// What runs measure: the registry, and hand-made worlds whose numbers are known.
+/// Observables: the registry, and hand-made worlds with known numbers.
 
 #include "runs/experiments/observables.hpp"
 
@@ -148,7 +148,7 @@ TEST(Observables, AreWhatTheExperimentsMeasure) {
                                             "density_profile",
                                             "cytosol_pressure_profile_Pa"};
     for (const auto& [name, values] : w.observer.measures)
-      // What the series of a relaxation says about the way back is worked out anew every frame.
+      // The recovery of a relaxation is computed anew from the series at every frame.
       EXPECT_TRUE(experiment == Experiment::kRelaxation || row.contains(name) ||
                   not_columns.contains(name))
           << name_of_choice(experiment) << ": " << name;

@@ -39,8 +39,8 @@ double exact_force(const reference::PressedMembrane& m, double gap) {
 
 // 162 nodes stand out 1.2 % of the radius, so the plates meet the cell that much earlier, and the
 // force grows with the power 5.6 of the gap: 7 %. With 642 nodes 0.3 % and 2 %. To that come
-// bending, which the membrane does not have, 8 sqrt(Y kappa) e = 0.3 nN on a dent, less on a cell
-// under pressure, and contact points within the facets.
+// bending, which the membrane does not have, 8 sqrt(Y kappa) e = 0.3 nN at an indentation, less on
+// a cell under pressure, and contact points within the facets.
 TEST(PlatesScene, ForceIsThatOfTheMembrane) {
   for (const auto& [nodes, tolerance] : {std::pair(162, 0.10), {642, 0.04}}) {
     const Scene scene = read_scene(test::source_path("runs/scenes/plates.json"),

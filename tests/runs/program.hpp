@@ -1,5 +1,5 @@
 #pragma once
-/// Starts the program as a user would, in a folder of its own, and looks at what it leaves behind.
+/// Runs of the program in a temporary folder, with its output and files.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

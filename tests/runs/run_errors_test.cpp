@@ -371,7 +371,7 @@ TEST_F(RunErrors, WrongValuesAreNamed) {
   expect_refused({"cells.list.0.raduis=12 um"},
                  {"/cells/list/0/raduis", "unknown key", "\"radius\"", "acinus explain"});
   expect_refused({"cells.list.0.type=liver"}, {"\"liver\"", "unknown cell type", "hepatocyte"});
-  // Two faults are told at once.
+  // Two errors are reported at once.
   expect_refused({"time.end=5", "seed=x"}, {"/time/end", "/seed"});
 }
 

@@ -146,7 +146,7 @@ TEST_F(Run, ToHalfAndResumedIsTheWholeRun) {
   expect_same("whole", "parts");
 }
 
-// Each place of the file in turn: told on stderr and in the summary, and the end is the same.
+// Each part of the file in turn: reported on stderr and in the summary, with the same end.
 TEST_F(Run, FindsDamageToItsFileWhenItIsResumed) {
   write("pair.json", kPair);
   finish(run_words("pair.json", "whole"), "whole");

@@ -15,7 +15,7 @@ std::string zoomed(const std::string& regions, const std::string& more = R"("mov
          regions + "], " + more + "}";
 }
 
-/// What is wrong, without the place.
+/// Error message without its place in the file.
 std::string complaint(const std::string& text) {
   const std::string all = failure(text);
   const std::size_t at = all.find(" /");

@@ -1,4 +1,4 @@
-/// Which frames a run must not go on from.
+/// Frames from which a run must not go on.
 
 #include "runs/session/soundness.hpp"
 
@@ -15,7 +15,7 @@
 namespace acinus::runs {
 namespace {
 
-/// What is found about one sphere of 12 um at the origin beside a closed mesh.
+/// Excess of one sphere of 12 um at the origin beside a closed mesh.
 Excess find_at(geometry::Surface surface, bool inside) {
   const Scene scene = parse_scene(R"({
   "time": {"end": "1 h"}, "motility": {"random": false},

@@ -1,4 +1,4 @@
-/// Scenes whose cells overlap deeply at t = 0, and what users are told about it.
+/// Scenes whose cells overlap deeply at t = 0, and the messages about it.
 
 #include "tests/runs/program.hpp"
 

@@ -1,4 +1,4 @@
-/// How long a study will still take, and what its runs say about that.
+/// Remaining time of a study, and the records of its runs.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// What users are told where a tissue leaves what its model can hold.
+/// Warnings about a tissue beyond the limits of its model.
 
 #include "tests/runs/program.hpp"
 

@@ -313,7 +313,7 @@ TEST(Operator, LinkForcesAreScatteredByWeight) {
   EXPECT_LT(net.norm(), 1024 * kEps);
 }
 
-/// What every operation leaves behind.
+/// Results of all operations.
 template <class T>
 std::vector<std::vector<T>> run_all(const System& s, std::vector<double>& number) {
   const auto x = random_vector_of<T>(s, 10), other = random_vector_of<T>(s, 11);

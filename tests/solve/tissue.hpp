@@ -55,7 +55,7 @@ inline Mesh make_icosphere(int n_node) {
   return m;
 }
 
-/// What a side of a contact lies on. A loose cell has no index of its springs.
+/// Body on one side of a contact. A loose cell has no index of its springs.
 enum Shape : std::size_t { kOctahedron, kIcosphere, kLoose, kSphere, kOutside };
 
 inline const Mesh& mesh_of(Shape shape) {

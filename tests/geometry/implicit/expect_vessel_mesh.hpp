@@ -1,5 +1,5 @@
 #pragma once
-/// What must hold of the surface about any network.
+/// Properties of the surface of any network.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ inline double off_wall(const geometry::Network& n, const Vec3& x) {
   return std::abs(least) / radius;
 }
 
-/// Of the middles of all triangles; those across a crease do not follow it.
+/// Deviation of the middles of all triangles; those across a crease do not follow it.
 struct Deviation {
   double rms = 0, beyond = 0;  ///< share of them farther than 5 % of the radius
 };

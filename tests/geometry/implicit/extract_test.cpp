@@ -86,8 +86,8 @@ TEST(ExtractZero, BisectsEdgesThatMissAGap) {
   EXPECT_GT(joined, 5);
 }
 
-/// Where small tetrahedra meet large ones no crack opens, whatever lies beside them, and threads
-/// change nothing.
+/// No cracks between small and large tetrahedra, for any values beside them and any number of
+/// threads.
 TEST(ExtractZero, IsClosedWhereSizesDiffer) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> uniform;

@@ -74,7 +74,7 @@ class RandomNetwork {
     network_.radius.push_back({radius_[a], radius_[b]});
   }
 
-  /// Whether a segment keeps away from all others, and leaves its nodes in a direction of its own.
+  /// True if a segment is clear of all others and leaves its nodes in a direction of its own.
   bool is_free(const Vec3& a, const Vec3& b, double ra, double rb, int node_a, int node_b) const {
     constexpr int kPlaces = 40;
     constexpr double kGap = 0.4, kMostAlike = 0.5;
