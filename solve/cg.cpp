@@ -156,7 +156,7 @@ CgResult continue_cg(const CgProblem& problem, std::span<double> x, const CgOpti
     const double goal = kGoalShare * options.tolerance * work.load / size;
     const PassPlan plan{
         size, mixed ? std::max(goal, kLargestFloatReduction) : goal, options.max_iterations,
-        options.expected_iterations < kPayingIterations ? kMergingIterations : 1, problem.coarse};
+        problem.expected_iterations < kPayingIterations ? kMergingIterations : 1, problem.coarse};
     const PassEnd end = improve(op, mixed, plan, work, x, result.iterations);
     if (end == PassEnd::kAskedToStop) return fail(result, "asked to stop");
     stopped = end == PassEnd::kOutOfIterations;

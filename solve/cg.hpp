@@ -21,7 +21,6 @@ struct CgOptions {
   double tolerance = 3e-3;  ///< on sqrt(r^T M^-1 r), relative to sqrt(b^T M^-1 b)
   int max_iterations = 2000;
   Precision precision = Precision::kMixed;
-  int expected_iterations = 0;  ///< from a similar solve, 0: unknown. Changes rounding only
 };
 
 struct CgResult {
@@ -66,6 +65,7 @@ struct CgProblem {
   /// is in the norm of the diagonal blocks either way.
   const CoarseSpace* coarse = nullptr;
   std::span<const double> product = {};  ///< A x of the start value if known, not in the workspace
+  int expected_iterations = 0;  ///< from a similar solve; 0: unknown. Changes rounding only
 };
 
 /// Solves A x = b from the start value in x (warm start). The tolerance is relative to the

@@ -15,11 +15,8 @@ namespace {
 constexpr int kMostDoublings = 5;
 constexpr int kMostIterations = std::numeric_limits<int>::max();
 
-solve::CgOptions cg_options(const World& world, const Workspace& w, const Effort& effort) {
+solve::CgOptions cg_options(const World& world, const Workspace& w) {
   solve::CgOptions options = world.params.numerics.cg;
-  // Solves that are repeated in a step take few iterations.
-  options.expected_iterations =
-      effort.solves == 0 ? static_cast<int>(world.state.clock.longest_solve) : 0;
   // Cells suspended in liquid are coupled by little but adhesion: a shorter step does not improve
   // the conditioning.
   for (int k = 0; k < std::min(w.failed_solves, kMostDoublings); ++k)
@@ -28,9 +25,12 @@ solve::CgOptions cg_options(const World& world, const Workspace& w, const Effort
   return options;
 }
 
-solve::CgProblem cg_problem(const World& world, Workspace& w,
+solve::CgProblem cg_problem(const World& world, Workspace& w, const Effort& effort,
                             std::span<const double> product = {}) {
-  return {w.op, w.rhs, world.state.clock.coarse ? &w.coarse : nullptr, product};
+  const Clock& clock = world.state.clock;
+  // Solves that are repeated in a step take few iterations.
+  const int expected = effort.solves == 0 ? static_cast<int>(clock.longest_solve) : 0;
+  return {w.op, w.rhs, clock.coarse ? &w.coarse : nullptr, product, expected};
 }
 
 /// Corrects the rigid motion of every cluster after conjugate gradients, and fetches ghost points.
@@ -110,7 +110,7 @@ Status solve_changed_links(const World& world, Workspace& w, Effort& effort) {
   // The solution is the whole displacement, not that from the point of linearisation.
   if (elsewhere) for_each_own_number(w.system, [&](std::size_t k) { w.rhs[k] += product[k]; });
   const solve::CgResult result =
-      solve::continue_cg(cg_problem(world, w), w.move, cg_options(world, w, effort), w.cg);
+      solve::continue_cg(cg_problem(world, w, effort), w.move, cg_options(world, w), w.cg);
   const Status status = finish_solve(world, result, w, effort);
   if (elsewhere) for_each_own_number(w.system, [&](std::size_t k) { w.rhs[k] -= product[k]; });
   return status;
@@ -122,7 +122,7 @@ Status solve_system(const World& world, Workspace& w, Effort& effort,
   if (world.state.clock.coarse)
     w.coarse.prepare(w.op, {w.position, w.active, w.cg.residual, w.cg.product});
   const solve::CgResult result =
-      solve::solve_cg(cg_problem(world, w, product), w.move, cg_options(world, w, effort), w.cg);
+      solve::solve_cg(cg_problem(world, w, effort, product), w.move, cg_options(world, w), w.cg);
   return finish_solve(world, result, w, effort);
 }
 

@@ -88,9 +88,9 @@ TEST(LifeStop, SleepersAreLookedAtAgain) {
 
 // Limits of a few milliseconds fall into steps, divisions and the settling of daughters alike.
 TEST(LifeStop, ManyStopsLeaveTheSameBits) {
-  constexpr double kEnd = 1200;  // s
+  constexpr double kEndOfStops = 1200;  // s
   Simulation through(make_mothers()), stopped(make_mothers());
-  EXPECT_TRUE(through.run_until(kEnd).ok);
+  EXPECT_TRUE(through.run_until(kEndOfStops).ok);
   int in_steps = 0, in_events = 0, divisions = 0;
   const Observer observer{.life = [&](const LifeReport& report) {
     divisions += count_events(report, EventKind::kDivision);
@@ -98,7 +98,7 @@ TEST(LifeStop, ManyStopsLeaveTheSameBits) {
   }};
   for (double wall = 2e-3;; wall *= 1.1) {
     const WallTimeLimit limit(wall);
-    if (stopped.run_until(kEnd, observer).ok) break;
+    if (stopped.run_until(kEndOfStops, observer).ok) break;
     (stopped.world().state.clock.due == EventsDue::kNone ? in_steps : in_events) += 1;
   }
   std::printf("stopped %d times in a step, %d times in the events after it\n", in_steps, in_events);

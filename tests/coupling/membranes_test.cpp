@@ -46,12 +46,12 @@ TEST(Membranes, CellsOfBothModelsFillAtTheRateOfAreaOverVolume) {
     begin_open_spaces(w);
     s.medium.face.fill({substances::FaceKind::kFixed, 1, 0});
     w.state.substance[0].concentration.assign(w.params.substances.grid.n_voxel(), 1);
-    constexpr int kSteps = 100;
-    for (int k = 0; k < kSteps; ++k) advance_fields(w, 1);
+    constexpr int kStepsOfFilling = 100;
+    for (int k = 0; k < kStepsOfFilling; ++k) advance_fields(w, 1);
     const Cell cell = list_cells(w.state)[0];
     double volume = 0;
     for (const double part : w.state.substance[0].inside.volume) volume += part;
-    const double rate = -std::log(1 - cell_concentrations(w)[0][cell.index]) / kSteps,
+    const double rate = -std::log(1 - cell_concentrations(w)[0][cell.index]) / kStepsOfFilling,
                  exact = kPermeability * area_of(w.state, cell) / volume;
     const auto [low, high] = std::ranges::minmax(w.state.substance[0].inside.concentration);
     std::printf("inside %.4f to %.4f\n", low, high);

@@ -19,7 +19,7 @@ Timings two_stages() {
 
 TEST(Attempts, AddUpStageByStage) {
   const Timings timings = two_stages();
-  const Attempts before{2, {{"solve", 3.0, 4.0, 0.0, 5}, {"zoom", 1.0, 1.0, 0.0, 1}}};
+  const Attempts before{2, {{"solve", 3.0, 4.0, 5}, {"zoom", 1.0, 1.0, 1}}};
   const Attempts sum = add_attempt(before, timings);
   EXPECT_EQ(sum.count, 3);
   ASSERT_EQ(sum.stages.size(), 3u);
@@ -33,7 +33,7 @@ TEST(Attempts, AddUpStageByStage) {
 
 TEST(Attempts, AreKeptByCheckpoints) {
   io::CheckpointData data;
-  put_attempts({2, {{"frames and audit", 3.0, 4.0, 0.0, 5}}}, data);
+  put_attempts({2, {{"frames and audit", 3.0, 4.0, 5}}}, data);
   const Attempts read = get_attempts(data);
   EXPECT_EQ(read.count, 2);
   ASSERT_EQ(read.stages.size(), 1u);
