@@ -25,7 +25,8 @@ void* map_pages(std::size_t bytes) {
   void* const pages = mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
                            MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (pages == MAP_FAILED) throw std::bad_alloc();
-  if (g_small_pages) madvise(pages, bytes, MADV_NOHUGEPAGE);
+  // Large pages: gathers from arrays of many megabytes would wait for translations of addresses.
+  madvise(pages, bytes, g_small_pages ? MADV_NOHUGEPAGE : MADV_HUGEPAGE);
   return pages;
 }
 
