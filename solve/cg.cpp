@@ -20,7 +20,7 @@ constexpr int kMaxPasses = 20;
 /// Largest share of the residual that a useful pass leaves: above it, the pass has reached the
 /// limit of its precision.
 constexpr double kLargestUsefulShare = 0.5;
-/// Expected iterations from which merging contacts pays: it costs as much as 10 to 20 products
+/// Expected iterations from which merging contacts pays: it costs as much as 10 to 25 products
 /// save.
 constexpr int kPayingIterations = 20;
 /// Iterations after which it pays where fewer are expected: a solve that took so many is likely to
