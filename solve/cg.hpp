@@ -77,8 +77,8 @@ struct CgProblem {
 CgResult solve_cg(const CgProblem& problem, std::span<double> x, const CgOptions& options,
                   CgWorkspace& work);
 
-/// Solves a system that changed a little since solve_cg, with the preconditioner and the coarse
-/// space of before. The tolerance is relative to the right-hand side of before.
+/// Solves a system that changed a little since solve_cg, with the preconditioner that op has now
+/// and the coarse space of before. The tolerance is relative to the right-hand side of before.
 /// @param problem  without product
 /// @pre work.residual is b - A x of the changed system, and work.load is not 0
 CgResult continue_cg(const CgProblem& problem, std::span<double> x, const CgOptions& options,

@@ -156,11 +156,9 @@ bool pulls_open(const Workspace& w) {
 }
 
 Status settle_active_set(const World& world, Workspace& w, Effort& effort) {
-  const bool constrained = w.constraint.applies() || !w.constraint.anchored_row.empty();
   for (int change = 0; change < kMostChanges; ++change) {
     if (!activate_closing(w)) return Status::fine();
-    const Status status = constrained || w.cg.load == 0 ? solve_again(world, w, effort)
-                                                        : solve_changed_links(world, w, effort);
+    const Status status = solve_again(world, w, effort);
     if (!status.ok) return status;
   }
   if (pulls_open(w)) return Status::failed("which contacts close within the step does not settle");

@@ -15,6 +15,11 @@ namespace {
 constexpr int kMostDoublings = 5;
 constexpr int kMostIterations = std::numeric_limits<int>::max();
 
+/// True if points are held, whose residual has penalty forces.
+bool is_constrained(const Workspace& w) {
+  return w.constraint.applies() || !w.constraint.anchored_row.empty();
+}
+
 solve::CgOptions cg_options(const World& world, const Workspace& w) {
   solve::CgOptions options = world.params.numerics.cg;
   // Cells suspended in liquid are coupled by little but adhesion: a shorter step does not improve
@@ -72,7 +77,7 @@ Status solve_from_guess(const World& world, Workspace& w, bool from_point, Effor
   place_constrained({}, w);
   for_each_own_number(w.system,
                       [&](std::size_t k) { w.rhs[k] += point.product[k] - point.friction[k]; });
-  const bool is_known = from_point && !w.constraint.applies() && w.constraint.anchored_row.empty();
+  const bool is_known = from_point && !is_constrained(w);
   const Status status =
       solve_system(world, w, effort,
                    is_known ? std::span<const double>(point.product) : std::span<const double>());
@@ -99,11 +104,10 @@ Status solve_step(const World& world, double step, Workspace& w, Effort& effort)
 }
 
 Status solve_again(const World& world, Workspace& w, Effort& effort) {
-  place_constrained({}, w);
-  return solve_from_guess(world, w, false, effort);
-}
-
-Status solve_changed_links(const World& world, Workspace& w, Effort& effort) {
+  if (is_constrained(w) || w.cg.load == 0) {
+    place_constrained({}, w);
+    return solve_from_guess(world, w, false, effort);
+  }
   const auto scope = w.timings.scope("solve");
   const bool elsewhere = w.linearisation.is_elsewhere();
   const RowVector<double>& product = w.linearisation.product;

@@ -15,13 +15,11 @@ namespace acinus::coupling {
 /// of this file add to `effort`.
 [[nodiscard]] Status solve_step(const World& world, double step, Workspace& work, Effort& effort);
 
-/// Solves a changed system again, with the previous displacement as initial guess.
+/// Solves again after changes of a few links, from the previous displacement. Without constrained
+/// cells goes on from the residual, with the coarse space of before.
+/// @pre work.op, work.rhs and work.cg.residual, and work.linearisation.product if that is
+/// elsewhere, are up to date
 [[nodiscard]] Status solve_again(const World& world, Workspace& work, Effort& effort);
-
-/// Solves again after changes of a few links, with the operator's preconditioner of before.
-/// @pre work.rhs and work.cg.residual, and work.linearisation.product if that is elsewhere, are up
-/// to date; no cell is constrained; work.cg.load is not 0
-[[nodiscard]] Status solve_changed_links(const World& world, Workspace& work, Effort& effort);
 
 /// Solves for work.move from its initial guess and the right-hand side in work.rhs, then corrects
 /// the rigid motion of every cluster.
