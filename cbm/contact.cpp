@@ -245,7 +245,7 @@ bool refresh_pairs(const ContactInput& in, ContactWorkspace& work, const Ranks& 
 }
 
 void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::ContactList& contacts,
-                   std::vector<solve::PointLink>& link) {
+                   solve::PointLinks& link) {
   ++work.searches;
   compute_moduli(in.state, in.params, work);
   find_pair_contacts(in, work, link);

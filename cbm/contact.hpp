@@ -69,7 +69,7 @@ void compute_overlaps(const ContactInput& in, ContactWorkspace& work);
 /// @param contacts  receives the completed contacts with the boundary
 /// @param link      one per near pair, zero where not touching
 void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::ContactList& contacts,
-                   std::vector<solve::PointLink>& link);
+                   solve::PointLinks& link);
 
 /// Last stage of find_contacts: adds the coupling of its cells to the stiffness of every contact.
 /// @pre work.coupling is known of every cell that has a contact, or empty

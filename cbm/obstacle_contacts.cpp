@@ -44,7 +44,7 @@ bool was_touching_vessel(const State& s, const contact::Vessels& vessels, int ce
 /// Search for the contacts of spheres with the boundary, and evaluation of their law.
 class ObstacleSearch {
  public:
-  ObstacleSearch(const ContactInput& in, ContactWorkspace& work, std::vector<Contact>& out)
+  ObstacleSearch(const ContactInput& in, ContactWorkspace& work, contact::Contacts& out)
       : in_(in), work_(work), out_(out) {}
 
   void run() {
@@ -262,13 +262,13 @@ class ObstacleSearch {
 
   const ContactInput& in_;
   ContactWorkspace& work_;
-  std::vector<Contact>& out_;
+  contact::Contacts& out_;
 };
 
 }  // namespace
 
 void find_obstacle_contacts(const ContactInput& in, ContactWorkspace& work,
-                            std::vector<Contact>& contacts) {
+                            contact::Contacts& contacts) {
   ObstacleSearch(in, work, contacts).run();
 }
 

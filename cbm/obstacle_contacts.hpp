@@ -11,6 +11,6 @@ namespace acinus::cbm {
 /// Search for the contacts of spheres with the boundary: appends them, complete, and adds their
 /// areas, couplings and touching flags to `work`. Second stage of find_contacts.
 void find_obstacle_contacts(const ContactInput& in, ContactWorkspace& work,
-                            std::vector<contact::Contact>& contacts);
+                            contact::Contacts& contacts);
 
 }  // namespace acinus::cbm

@@ -201,7 +201,7 @@ class PairBatch {
 class RangeSearch {
  public:
   RangeSearch(const ContactInput& in, std::pair<std::size_t, std::size_t> range,
-              ContactWorkspace& work, std::vector<solve::PointLink>& link,
+              ContactWorkspace& work, solve::PointLinks& link,
               std::vector<std::pair<int, int>>& touching)
       : first_row_(in.first_row),
         first_(static_cast<int>(range.first)),
@@ -289,7 +289,7 @@ class RangeSearch {
   std::size_t first_row_;
   int first_, last_;
   ContactWorkspace& work_;
-  std::vector<solve::PointLink>& link_;
+  solve::PointLinks& link_;
   std::vector<std::pair<int, int>>& touching_;
   PairBatch batch_;
 };
@@ -310,8 +310,7 @@ contact::Contact record_of(const PairBatch& batch, std::size_t l, std::pair<int,
 
 }  // namespace
 
-void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
-                        std::vector<solve::PointLink>& link) {
+void find_pair_contacts(const ContactInput& in, ContactWorkspace& work, solve::PointLinks& link) {
   const std::size_t n = in.state.n_cell();
   set_size(work.force, in.state.position.size());
   set_size(link, work.pair.size());

@@ -62,6 +62,6 @@ void fill_candidates(std::span<const SurfaceBody> bodies, std::span<const Surfac
 /// @return number of points examined
 std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
                           std::span<const SurfaceBody> fixed, const SearchOptions& options,
-                          double moved, std::vector<Contact>& out);
+                          double moved, Contacts& out);
 
 }  // namespace acinus::contact

@@ -9,7 +9,7 @@ namespace acinus::contact {
 
 std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
                           std::span<const SurfaceBody> fixed, const SearchOptions& o, double moved,
-                          std::vector<Contact>& out) {
+                          Contacts& out) {
   const bool self = list.body_a == list.body_b;
   const bool is_fixed = static_cast<std::size_t>(list.body_b) >= bodies.size();
   const int partner = is_fixed ? list.body_b - static_cast<int>(bodies.size()) : list.body_b;

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "core/parallel/pages.hpp"
 #include "core/vec.hpp"
 
 namespace acinus::contact {
@@ -80,6 +81,8 @@ struct Contact {
 };
 static_assert(sizeof(Contact) == 96);  // a step reads and writes all of them: larger is slower
 
+using Contacts = LargeVector<Contact>;
+
 /// Kinds of contacts by their sides, in the order of the list. Spheres with spheres are not listed:
 /// they are evaluated eight at a time without records (cbm::visit_pairs).
 enum class ContactKind { kSurface, kObstacle, kInterface, kSphereObstacle, kNucleus };
@@ -87,7 +90,7 @@ inline constexpr std::size_t kKinds = 5;
 
 /// Contacts of one time, one kind after the other. Contacts of one cell a are contiguous.
 struct ContactList {
-  std::vector<Contact> all;
+  Contacts all;
   std::array<std::size_t, kKinds> end{};  ///< of each kind in `all`
 
   /// Ends a kind at the present size of `all`; later kinds are empty.

@@ -29,8 +29,7 @@ class LinkResponse {
  public:
   template <class L>
   LinkResponse(const System& s, const L& l)
-      : normal_(static_cast<double>(l.normal[0]), static_cast<double>(l.normal[1]),
-                static_cast<double>(l.normal[2])),
+      : normal_(normal_of(l)),
         stiffness_(s.stiffness_scale * static_cast<double>(l.stiffness)),
         friction_(s.friction_scale * static_cast<double>(l.friction)) {}
 

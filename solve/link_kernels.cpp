@@ -66,7 +66,7 @@ ACINUS_INLINE void multiply(const L& l, const LinkScales& s, bool to_a, bool to_
 template <class L, class T>
 ACINUS_INLINE void multiply_all(const LinkSet<L>& set, const LinkScales& scales, const Packed<T>* x,
                                 Packed<T>* y) {
-  for (const std::vector<Share>& list : set.share)
+  for (const LargeVector<Share>& list : set.share)
     for (const Share s : list) multiply(set.link[s.link], scales, s.a != 0, s.b != 0, x, y);
 }
 
@@ -89,7 +89,7 @@ ACINUS_INLINE void add_side(SymBlock* to, Point p, const SymBlock& m) { add_bloc
 
 template <class L>
 ACINUS_INLINE void add_diagonal_of(const LinkSet<L>& set, const LinkScales& scales, SymBlock* d) {
-  for (const std::vector<Share>& list : set.share)
+  for (const LargeVector<Share>& list : set.share)
     for (const Share s : list) {
       const L& l = set.link[s.link];
       const SymBlock m = matrix_of(l, scales);
@@ -132,7 +132,7 @@ ACINUS_KERNEL void multiply_links(const LinkSet<PointLink>& set, LinkScales scal
 ACINUS_KERNEL void multiply_pairs(const PointPairs& pairs, const ShareLists& share,
                                   const Packed<float>* x, Packed<float>* y) {
   using Eight = float __attribute__((vector_size(32)));
-  for (const std::vector<Share>& list : share)
+  for (const LargeVector<Share>& list : share)
     for (const Share s : list) {
       const PointPairs::Row row = pairs.row[s.link];
       const Four<float> xa = load4(x + row.a);
@@ -155,7 +155,7 @@ ACINUS_KERNEL void multiply_pairs(const PointPairs& pairs, const ShareLists& sha
 
 void add_forces(const LinkSet<Link>& set, const LinkForce& force, bool external,
                 Packed<double>* y) {
-  for (const std::vector<Share>& list : set.share)
+  for (const LargeVector<Share>& list : set.share)
     for (const Share s : list) {
       const Link& l = set.link[s.link];
       if (exists(l) == external) continue;

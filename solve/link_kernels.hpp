@@ -19,7 +19,7 @@ struct Share {
 };
 
 /// Shares of one thread, as lists that follow each other.
-using ShareLists = std::vector<std::vector<Share>>;
+using ShareLists = std::vector<LargeVector<Share>>;
 
 /// Contacts of one thread.
 template <class L>

@@ -13,6 +13,7 @@
 
 #include "core/numbers/lanes.hpp"
 #include "core/parallel/make_room.hpp"
+#include "core/parallel/pages.hpp"
 #include "core/vec.hpp"
 
 namespace acinus::solve {
@@ -68,10 +69,10 @@ struct LinkLaw {
 /// Force of a link on its side a, nN, by the index of the link.
 using LinkForce = std::function<Vec3(std::size_t)>;
 
-/// Contacts with up to three points a side, sorted by the cell of side a.
+/// Contacts with up to three points a side, sorted by the cell of side a. New ones have no values.
 struct Links {
-  std::vector<Link> link;
-  std::vector<LinkLaw> law;  ///< [n_link]
+  LargeVector<Link> link;
+  LargeVector<LinkLaw> law;  ///< [n_link]
   /// [n_link] 1: takes its closed law although it was open, 2: did and opens again; see
   /// coupling/step/active_set.hpp. Empty: none.
   std::vector<std::uint8_t> closed;
@@ -93,6 +94,14 @@ struct PointLink {
   std::array<float, 3> normal{};
   float stiffness = 0, friction = 0;
 };
+using PointLinks = LargeVector<PointLink>;
+
+/// Unit normal of a contact, in double.
+template <class L>
+Vec3 normal_of(const L& link) {
+  return {static_cast<double>(link.normal[0]), static_cast<double>(link.normal[1]),
+          static_cast<double>(link.normal[2])};
+}
 
 /// Points and weights of a link, side b negative: r = sum weight x, and the force on a point is
 /// weight times the force on side a.

@@ -103,7 +103,7 @@ void Operator::share(std::size_t n, ShareLists ThreadRange::*to, const Ends& end
     }
     const auto give = [lists = mine.data()](int range, Share share) {
       if (range < 0) return;
-      std::vector<Share>& list = lists[range];
+      LargeVector<Share>& list = lists[range];
       make_room(list, 1);
       list.push_back(share);
     };
@@ -208,11 +208,11 @@ void Operator::prepare(const System& system) {
   exchange_.plan(system);
   for_each_range([&](ThreadRange& range) {
     range.external.clear();
-    for (const std::vector<Share>& list : range.link)
+    for (const LargeVector<Share>& list : range.link)
       for (const Share l : list)
         if (!system.links.link[l.link].b.exists()) range.external.push_back(l.link);
     range.external_point.clear();
-    for (const std::vector<Share>& list : range.point_link)
+    for (const LargeVector<Share>& list : range.point_link)
       for (const Share l : list)
         if (system.point_links[l.link].b == kNowhere) range.external_point.push_back(l.link);
   });
@@ -309,7 +309,7 @@ void Operator::apply_external(std::span<const double> x, std::span<double> y,
   for_each_external([&](const Stencil& at, const auto& l) {
     Vec3 r = Vec3::Zero();
     for (int k = 0; k < at.n; ++k) r += at.weight[k] * load_point(x.data(), at.address[k]);
-    const Vec3 n(l.normal[0], l.normal[1], l.normal[2]);
+    const Vec3 n = normal_of(l);
     const Vec3 f = scales.stiffness * static_cast<double>(l.stiffness) * n.dot(r) * n +
                    scales.friction * static_cast<double>(l.friction) * r;
     for (int k = 0; k < at.n; ++k) add_point(y.data(), at.address[k], at.weight[k] * f);

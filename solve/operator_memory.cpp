@@ -13,7 +13,7 @@ std::size_t Operator::memory() const {
   std::size_t bytes = memory_of(range_of_row_) + merger_.memory() + merge_.pairs.memory();
   for (const ThreadRange& range : range_) {
     for (const ShareLists* lists : {&range.link, &range.point_link, &range.single, &range.pair})
-      for (const std::vector<Share>& list : *lists) bytes += memory_of(list);
+      for (const LargeVector<Share>& list : *lists) bytes += memory_of(list);
     bytes += memory_of(range.external) + memory_of(range.external_point);
   }
   return bytes;

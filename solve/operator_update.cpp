@@ -48,8 +48,7 @@ void Operator::update_links(std::span<const LinkChange> changes) {
   for (const LinkChange& change : changes) {
     if (change.gained) add_share(change.link);
     const Link& link = system_->links.link[change.link];
-    const Vec3 normal(static_cast<double>(link.normal[0]), static_cast<double>(link.normal[1]),
-                      static_cast<double>(link.normal[2]));
+    const Vec3 normal = normal_of(link);
     const Stencil stencil = stencil_of(link);
     for (int k = 0; k < stencil.n; ++k)
       stiffen(stencil.address[k], stencil.weight[k] * stencil.weight[k] * change.stiffer, normal);

@@ -212,8 +212,7 @@ class RigidModes {
       Vec3 place = Vec3::Zero();
       for (int k = 0; k < stencil.n; ++k) place += stencil.weight[k] * at(stencil.address[k]);
       const Map3x6 z = unit_motions(place - groups_[g].center);
-      const Vec3 n(static_cast<double>(l.normal[0]), static_cast<double>(l.normal[1]),
-                   static_cast<double>(l.normal[2]));
+      const Vec3 n = normal_of(l);
       const Mat3 m = s_.stiffness_scale * static_cast<double>(l.stiffness) * n * n.transpose() +
                      s_.friction_scale * static_cast<double>(l.friction) * Mat3::Identity();
       int& tie = work_.tie_of_cell[cell];

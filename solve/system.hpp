@@ -76,8 +76,8 @@ struct System {
   RowVector<float> face;             ///< [n_face][6][lane] sqrt(nN/um)
   RowVector<float> beam;             ///< [n_beam][12][lane] sqrt(nN/um)
   std::vector<RankOne> rank_one;
-  Links links;                         ///< contacts of surfaces
-  std::vector<PointLink> point_links;  ///< contacts of spheres; friction from node to node
+  Links links;             ///< contacts of surfaces
+  PointLinks point_links;  ///< contacts of spheres; friction from node to node
 
   std::size_t n_dof() const { return n_row * kPointStride; }
   std::size_t block_of(Point p) const { return block.block_of_row(p / kLanes); }

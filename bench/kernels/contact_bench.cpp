@@ -93,7 +93,7 @@ contact::SearchOptions search_options(const AssembledClump& clump) {
 void find_contacts(benchmark::State& state) {
   const AssembledClump& clump = packed_clump(static_cast<int>(state.range()));
   const contact::SearchOptions options = search_options(clump);
-  std::vector<contact::Contact> found;
+  contact::Contacts found;
   for (auto _ : state) {
     found.clear();
     for (const contact::Candidates& list : clump.work.dcm.lists.pair)

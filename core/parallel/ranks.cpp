@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/parallel/row_vector.hpp"
+#include "core/parallel/pages.hpp"
 #include "core/parallel/stop.hpp"
 
 namespace acinus {

@@ -5,7 +5,7 @@
 
 #include "contact/cohesive.hpp"
 #include "contact/pair_adhesion.hpp"
-#include "core/parallel/threads.hpp"
+#include "core/parallel/append_in_order.hpp"
 #include "dcm/contact/contact.hpp"
 #include "dcm/contact/contact_bodies.hpp"
 #include "dcm/contact/contact_loads.hpp"
@@ -53,14 +53,14 @@ PairLaw law_of(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
 
 /// Contacts of one surface with one sphere.
 void find_pair(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
-               std::pair<int, int> pair, double range, std::vector<Contact>& found) {
+               std::pair<int, int> pair, double range, contact::Contacts& found) {
   const contact::SurfaceBody& b = dcm_work.body[pair.first];
   const contact::Quadrature q = in.dcm.options.quadrature;
   const std::size_t sphere = pair.second;
   const Vec3 center = cbm::center_of(in.cbm.state, sphere);
   const double radius = in.cbm.cells.radius[sphere];
   const int per_site = contact::points_per_site(q);
-  found.clear();
+  const std::size_t first = found.size();
   for (std::size_t site = 0; site < contact::n_sites(b, q); ++site) {
     const Vec3 at = contact::site_place(b, q, site);
     const double far = radius + range + contact::site_reach(b, q, site);
@@ -79,16 +79,16 @@ void find_pair(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
                          .gap = gap});
     }
   }
+  const std::span<Contact> own = std::span(found).subspan(first);
   double depth = 0;
-  for (const Contact& k : found) depth = std::max(depth, -k.gap);
-  for (Contact& k : found) k.place_a = Contact::pack(depth);
+  for (const Contact& k : own) depth = std::max(depth, -k.gap);
+  for (Contact& k : own) k.place_a = Contact::pack(depth);
 }
 
 /// Contacts of the triangles of one surface with one sphere.
 void find_triangle_pair(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
                         const cbm::ContactWorkspace& cbm_work, std::pair<int, int> pair,
-                        double reach, std::vector<Contact>& found) {
-  found.clear();
+                        double reach, contact::Contacts& found) {
   const std::size_t body = pair.first, sphere = pair.second;
   const std::size_t lane = dcm_work.lane_of_body[body];
   const Vec3 center = cbm::center_of(in.cbm.state, sphere);
@@ -109,17 +109,21 @@ void find_triangle_pair(const InterfaceInput& in, const dcm::ContactWorkspace& d
   }
 }
 
-/// Appends what was found of each pair and notes the area of each.
-/// @param touching  (pair, contact) -> um^2
-template <class Touching>
-void gather_pairs(InterfaceWorkspace& work, contact::ContactList& contacts, Touching touching) {
-  for (std::size_t p = 0; p < work.near.size(); ++p) {
-    double area = 0;
-    for (const Contact& m : work.found[p]) area += touching(p, m);
-    if (area > 0) work.area.emplace_back(work.near[p].second, area);
-    contacts.all.insert(contacts.all.end(), work.found[p].begin(), work.found[p].end());
-  }
+/// Finds the contacts of all pairs and notes the area of each pair.
+/// @param find      appends those of pair p: (p, contacts)
+/// @param touching  contact -> um^2
+template <class Find, class Touching>
+void find_of_pairs(InterfaceWorkspace& work, contact::ContactList& contacts, const Find& find,
+                   const Touching& touching) {
+  append_in_order(work.near.size(), true, contacts.all, find);
   contacts.close(contact::ContactKind::kInterface);
+  const std::span<const Contact> all = contacts.interface();
+  for (std::size_t k = 0, n = 0; n < work.near.size(); ++n) {
+    const auto [body, sphere] = work.near[n];
+    double area = 0;
+    for (; k < all.size() && all[k].a == body && all[k].b == sphere; ++k) area += touching(all[k]);
+    if (area > 0) work.area.emplace_back(sphere, area);
+  }
 }
 
 /// Candidate pairs of surfaces and spheres (broad phase).
@@ -183,10 +187,7 @@ void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
     if (shells.active(l))
       range = std::max(range, dcm::contact_range(c, *shells.group[l / kLanes].topology, radius[l]));
   find_near(in, range, dcm_work, cbm_work, work);
-  const auto& pairs = work.near;
-  auto& found = work.found;
-  if (found.size() < pairs.size()) found.resize(pairs.size());
-  for (const auto& [body, sphere] : pairs) {
+  for (const auto& [body, sphere] : work.near) {
     const std::size_t lane = dcm_work.lane_of_body[body], i = sphere;
     // A deformable neighbour counts in the sphere's overlap with its reference radius, by the
     // distance of the centres alone: whether surfaces touch changes from step to step, and with it
@@ -204,10 +205,11 @@ void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
            cbm_work.is_constrained(static_cast<std::size_t>(p.second));
   });
   if (triangles) return;
-  for_each_index(pairs.size(), true,
-                 [&](std::size_t p) { find_pair(in, dcm_work, pairs[p], range, found[p]); });
-  gather_pairs(work, contacts, [&](std::size_t p, const Contact& m) {
-    const std::size_t k = pairs[p].first;
+  const auto find = [&](std::size_t p, contact::Contacts& found) {
+    find_pair(in, dcm_work, work.near[p], range, found);
+  };
+  find_of_pairs(work, contacts, find, [&](const Contact& m) {
+    const std::size_t k = m.a;
     const double share = contact::contact_share(m.gap, c.friction_range);
     dcm_work.share[k][m.point] += share;
     return share * dcm::point_area(*dcm_work.body[k].topology, c.quadrature, m.point,
@@ -221,10 +223,10 @@ void find_triangle_interface(const InterfaceInput& in, dcm::ContactWorkspace& dc
   if (dcm_work.body.empty() || in.cbm.state.n_cell() == 0) return;
   const double reach = dcm::triangle_reach(in.dcm);
   dcm::refresh_curved_triangles(dcm_work);
-  for_each_index(work.near.size(), true, [&](std::size_t p) {
-    find_triangle_pair(in, dcm_work, cbm_work, work.near[p], reach, work.found[p]);
-  });
-  gather_pairs(work, contacts, [](std::size_t, const Contact& m) { return m.touching; });
+  const auto find = [&](std::size_t p, contact::Contacts& found) {
+    find_triangle_pair(in, dcm_work, cbm_work, work.near[p], reach, found);
+  };
+  find_of_pairs(work, contacts, find, [](const Contact& m) { return m.touching; });
   dcm::add_triangle_shares(contacts.interface(), dcm_work);
 }
 

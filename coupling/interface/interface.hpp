@@ -50,10 +50,9 @@ namespace acinus::coupling {
 /// Scratch of the interface.
 struct InterfaceWorkspace {
   std::vector<Box> body, sphere;
-  std::vector<int> number;                           ///< of the spheres with a box
-  std::vector<std::pair<int, int>> near;             ///< candidate pairs: body, sphere
-  std::vector<std::vector<contact::Contact>> found;  ///< [pair], capacity may be larger
-  std::vector<std::pair<int, double>> area;          ///< (sphere, um^2) of every touching pair
+  std::vector<int> number;                   ///< of the spheres with a box
+  std::vector<std::pair<int, int>> near;     ///< candidate pairs: body, sphere
+  std::vector<std::pair<int, double>> area;  ///< (sphere, um^2) of every touching pair
 };
 
 /// Elastic constants of a sphere as the partner of a deformable surface.

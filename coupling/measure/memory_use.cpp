@@ -5,10 +5,10 @@
 namespace acinus::coupling {
 namespace {
 
-template <class T>
-std::size_t memory_of_all(const std::vector<std::vector<T>>& lists) {
+template <class List>
+std::size_t memory_of_all(const std::vector<List>& lists) {
   std::size_t bytes = memory_of(lists);
-  for (const std::vector<T>& list : lists) bytes += memory_of(list);
+  for (const List& list : lists) bytes += memory_of(list);
   return bytes;
 }
 
@@ -56,8 +56,7 @@ std::size_t measure_lists(const dcm::ContactLists& lists) {
 }
 
 std::size_t measure_contacts(const Workspace& w) {
-  return memory_of(w.contacts.all) + memory_of_all(w.dcm.found) + memory_of_all(w.dcm.obstacle) +
-         memory_of_all(w.dcm.wall) + memory_of_all(w.interface.found) + memory_of(w.interface.near);
+  return memory_of(w.contacts.all) + memory_of_all(w.dcm.wall) + memory_of(w.interface.near);
 }
 
 std::size_t measure_links(const Workspace& w) {

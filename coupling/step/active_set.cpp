@@ -56,9 +56,8 @@ template <class Displacement>
 double opening(const solve::Stencil& stencil, const solve::Link& link, const Displacement& of) {
   Vec3 r = Vec3::Zero();
   for (int k = 0; k < stencil.n; ++k) r += stencil.weight[k] * of(stencil.address[k]);
-  double along = 0;
-  for (int k = 0; k < 3; ++k) along += static_cast<double>(link.normal[k]) * r[k];
-  return along;
+  const Vec3 n = solve::normal_of(link);
+  return n[0] * r[0] + n[1] * r[1] + n[2] * r[2];
 }
 
 /// Replaces the law of a contact. Adds the change of its force to force, right-hand side and
@@ -71,8 +70,7 @@ double replace_law(const ActiveLaw& from, const ActiveLaw& to_law, const Vec3& n
   const double stiffer =
       s.stiffness_scale * (static_cast<double>(stiffness) - static_cast<double>(link.stiffness));
   const solve::Stencil stencil = solve::stencil_of(link);
-  const Vec3 direction(static_cast<double>(link.normal[0]), static_cast<double>(link.normal[1]),
-                       static_cast<double>(link.normal[2]));
+  const Vec3 direction = solve::normal_of(link);
   const Vec3 force = (to_law.force - from.force) * normal;
   const Vec3 resistance =
       stiffer * opening(stencil, link, [&](Address a) { return rest_of_move(w, a); }) * direction;

@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "contact/cohesive.hpp"
+#include "core/parallel/append_in_order.hpp"
 #include "core/parallel/make_room.hpp"
 #include "core/parallel/threads.hpp"
 #include "dcm/contact/contact_bodies.hpp"
@@ -52,36 +53,24 @@ void compute_shares(const ContactInput& in, const contact::ContactList& contacts
   add_triangle_shares(contacts.obstacle(), work);
 }
 
-void append(const std::vector<Contact>& more, std::vector<Contact>& all) {
-  make_room(all, more.size());
-  all.insert(all.end(), more.begin(), more.end());
-}
-
 /// Search for contacts of the points of surfaces with other surfaces and with static meshes.
 void find_point_contacts(const ContactInput& in, const contact::SearchOptions& options,
-                         ContactWorkspace& work, std::vector<Contact>& all) {
+                         ContactWorkspace& work, contact::Contacts& all) {
   const std::vector<contact::Candidates>& pair = work.lists.pair;
-  // Each thread takes a run of lists, the first one writes in place: order as with one thread.
-  const std::size_t n_part = count_threads(in.state.n_row());
-  work.found.resize(n_part - 1);
   std::atomic<std::int64_t> listed = 0, seen = 0;
-  for_each_part(n_part, [&](std::size_t part) {
-    auto& found = part == 0 ? all : work.found[part - 1];
-    const std::size_t before = found.size();
-    found.clear();
-    make_room(found, before);
-    for (std::size_t k = part * pair.size() / n_part; k < (part + 1) * pair.size() / n_part; ++k) {
-      if (pair[k].point.empty()) continue;
-      make_room(found, pair[k].point.size());
-      listed += static_cast<std::int64_t>(pair[k].point.size());
-      seen += static_cast<std::int64_t>(contact::find_contacts(
-          pair[k], work.body, work.fixed, options, relative_motion(work.lists, k), found));
-    }
-  });
+  all.clear();
+  append_in_order(
+      pair.size(), worth_threads(in.state.n_row()), all,
+      [&](std::size_t k, contact::Contacts& found) {
+        if (pair[k].point.empty()) return;
+        make_room(found, pair[k].point.size());
+        listed += static_cast<std::int64_t>(pair[k].point.size());
+        seen += static_cast<std::int64_t>(contact::find_contacts(
+            pair[k], work.body, work.fixed, options, relative_motion(work.lists, k), found));
+      });
   work.searches += 1;
   work.points_listed += listed;
   work.points_seen += seen;
-  for (const auto& f : work.found) append(f, all);
 }
 
 }  // namespace
@@ -120,7 +109,7 @@ void refresh_lists(const ContactInput& in, ContactWorkspace& work) {
 
 void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::ContactList& contacts) {
   const contact::SearchOptions options = search_options(in);
-  std::vector<Contact>& all = contacts.all;
+  contact::Contacts& all = contacts.all;
   const bool triangles = in.options.law == ContactLaw::kMaugisDugdale;
   if (triangles)
     find_triangle_contacts(in, work, options.range, all);
@@ -129,16 +118,14 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
   take_wall_contacts(in, work, all);
   contacts.close(contact::ContactKind::kSurface);
 
-  work.obstacle.resize(work.body.size());
-  for_each_index(work.body.size(), worth_threads(in.state.n_row()), [&](std::size_t k) {
-    work.obstacle[k].clear();
-    const std::size_t lane = work.lane_of_body[k];
-    if ((work.constrained.empty() || work.constrained[lane] == 0) && !work.is_ghost(lane))
-      triangles
-          ? find_triangle_obstacles(in, work, static_cast<int>(k), options.range, work.obstacle[k])
-          : find_obstacle_contacts(in, work, static_cast<int>(k), options.range, work.obstacle[k]);
-  });
-  for (const auto& o : work.obstacle) append(o, all);
+  append_in_order(
+      work.body.size(), worth_threads(in.state.n_row()), all,
+      [&](std::size_t k, contact::Contacts& found) {
+        const std::size_t lane = work.lane_of_body[k];
+        if ((work.constrained.empty() || work.constrained[lane] == 0) && !work.is_ghost(lane))
+          triangles ? find_triangle_obstacles(in, work, static_cast<int>(k), options.range, found)
+                    : find_obstacle_contacts(in, work, static_cast<int>(k), options.range, found);
+      });
   contacts.close(contact::ContactKind::kObstacle);
   compute_shares(in, contacts, work);
 }

@@ -35,7 +35,6 @@ struct ContactInput {
 struct TriangleContactWorkspace {
   std::vector<std::vector<contact::CurvedTriangle>> curved;  ///< [body][triangle]
   std::vector<std::vector<contact::CurvedTriangle>> fixed;   ///< [static mesh][triangle]
-  std::vector<std::vector<contact::Contact>> found;          ///< [pair of bodies]
 };
 
 /// Scratch of the contact search. Bodies are the cells in lane order, empty lanes and absent cells
@@ -55,15 +54,11 @@ struct ContactWorkspace {
   std::vector<std::uint8_t> is_complete;    ///< [body] written by: refresh_bodies
   std::vector<contact::SurfaceBody> fixed;  ///< static meshes, then the surface of vessels
   /// [body] contacts with the surface of vessels; by: find_contacts. Empty: vessels are cones.
-  std::vector<std::vector<contact::Contact>> wall;
+  std::vector<contact::Contacts> wall;
   ContactLists lists;                          ///< written by: refresh_lists
   std::vector<std::int64_t> lineage_of_body;   ///< written by: refresh_lists
   std::vector<std::uint8_t> body_constrained;  ///< empty: all move; written by: refresh_lists
   std::vector<std::uint8_t> body_ghost;        ///< empty: none; written by: refresh_lists
-  std::vector<std::vector<contact::Contact>>
-      found;  ///< [other threads than the first] by: find_contacts
-  std::vector<std::vector<contact::Contact>>
-      obstacle;  ///< [body] with the boundary; by: find_contacts
   /// [body][point] sum of the touching shares of all contacts of a point; written by:
   /// find_contacts, then added to by the DCM-CBM interface.
   std::vector<std::vector<double>> share;

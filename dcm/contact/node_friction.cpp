@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/parallel/append_in_order.hpp"
 #include "core/parallel/threads.hpp"
 #include "dcm/contact/contact_loads.hpp"
 #include "dcm/contact/contact_params.hpp"
@@ -110,7 +111,7 @@ void add_run(const ContactInput& in, const ContactWorkspace& work,
 }  // namespace
 
 void add_node_friction(const ContactInput& in, const ContactWorkspace& work,
-                       const contact::ContactList& contacts, std::vector<solve::PointLink>& links) {
+                       const contact::ContactList& contacts, solve::PointLinks& links) {
   const ContactParams& c = in.options;
   if (c.friction_factor * c.cell_friction == 0) return;
   const std::span<const contact::Contact> surface = contacts.surface();
@@ -119,26 +120,22 @@ void add_node_friction(const ContactInput& in, const ContactWorkspace& work,
   for (std::size_t k = 0; k < runs.size(); ++k)
     if (k == 0 || runs[k].body != runs[k - 1].body) group.push_back(k);
   group.push_back(runs.size());
-  const std::size_t n_group = group.size() - 1, n_part = count_threads(in.state.n_row());
-  std::vector<std::vector<solve::PointLink>> part(n_part);
-  for_each_part(n_part, [&](std::size_t p) {
-    NodePairs table;
-    for (std::size_t g = p * n_group / n_part; g < (p + 1) * n_group / n_part; ++g) {
-      const int a = runs[group[g]].body[0], b = runs[group[g]].body[1];
-      const auto& body_a = work.body[a];
-      const auto& body_b = work.body[b];
-      table.start(body_a.node.size(), body_b.node.size());
-      for (std::size_t k = group[g]; k < group[g + 1]; ++k)
-        add_run(in, work, surface.subspan(runs[k].first, runs[k].last - runs[k].first), table);
-      auto point = [&](int body, int node) {
-        return side_at(in.state, work.lane_of_body[body], {1, {node, 0, 0}, {1, 0, 0}}).point[0];
-      };
-      table.for_each([&](int i, int j, double friction) {
-        part[p].push_back({point(a, i), point(b, j), {}, 0, static_cast<float>(friction)});
-      });
-    }
-  });
-  for (const auto& found : part) links.insert(links.end(), found.begin(), found.end());
+  const auto add_group = [&](std::size_t g, solve::PointLinks& out) {
+    thread_local NodePairs table;  // keeps its memory
+    const int a = runs[group[g]].body[0], b = runs[group[g]].body[1];
+    const auto& body_a = work.body[a];
+    const auto& body_b = work.body[b];
+    table.start(body_a.node.size(), body_b.node.size());
+    for (std::size_t k = group[g]; k < group[g + 1]; ++k)
+      add_run(in, work, surface.subspan(runs[k].first, runs[k].last - runs[k].first), table);
+    auto point = [&](int body, int node) {
+      return side_at(in.state, work.lane_of_body[body], {1, {node, 0, 0}, {1, 0, 0}}).point[0];
+    };
+    table.for_each([&](int i, int j, double friction) {
+      out.push_back({point(a, i), point(b, j), {}, 0, static_cast<float>(friction)});
+    });
+  };
+  append_in_order(group.size() - 1, worth_threads(in.state.n_row()), links, add_group);
 }
 
 }  // namespace acinus::dcm

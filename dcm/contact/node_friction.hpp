@@ -26,6 +26,6 @@ namespace acinus::dcm {
 /// contact of a triangle for its three.
 /// @pre all shares are known
 void add_node_friction(const ContactInput& in, const ContactWorkspace& work,
-                       const contact::ContactList& contacts, std::vector<solve::PointLink>& links);
+                       const contact::ContactList& contacts, solve::PointLinks& links);
 
 }  // namespace acinus::dcm

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "contact/closest.hpp"
-#include "core/parallel/make_room.hpp"
+#include "core/parallel/append_in_order.hpp"
 #include "core/parallel/threads.hpp"
 #include "dcm/contact/contact_points.hpp"
 #include "dcm/contact/contact_sides.hpp"
@@ -126,8 +126,8 @@ void find_near(const contact::SurfaceBody& b, const Vec3& point, double distance
 }
 
 /// Search for the contacts of nucleus `number` of `work`.
-void find_in_cell(const ContactInput& in, const ContactWorkspace& cortices, std::size_t number,
-                  NucleusWorkspace& work) {
+void find_in_cell(const ContactInput& in, const ContactWorkspace& cortices,
+                  const NucleusWorkspace& work, std::size_t number, contact::Contacts& found) {
   const std::size_t body = work.cortex[number], lane = cortices.lane_of_body[body];
   const contact::SurfaceBody &cortex = cortices.body[body], &nucleus = work.body[number];
   const Nucleus& n = *in.params[in.state.group[lane / kLanes].type].nucleus;
@@ -142,15 +142,15 @@ void find_in_cell(const ContactInput& in, const ContactWorkspace& cortices, std:
   PointSearch(cortex, nucleus, horizon, scratch)
       .look(near, [&](int point, int triangle, const auto& weight, const Vec3& normal, double gap) {
         if (gap > range) return;
-        work.found[number].push_back({.a = static_cast<int>(body),
-                                      .point = point,
-                                      .b = static_cast<int>(number),
-                                      .triangle = triangle,
-                                      .partner = contact::Partner::kNucleus,
-                                      .place = weight,
-                                      .place_a = contact::Contact::pack(n.repulsion),
-                                      .normal = normal,
-                                      .gap = gap - n.gap});
+        found.push_back({.a = static_cast<int>(body),
+                         .point = point,
+                         .b = static_cast<int>(number),
+                         .triangle = triangle,
+                         .partner = contact::Partner::kNucleus,
+                         .place = weight,
+                         .place_a = contact::Contact::pack(n.repulsion),
+                         .normal = normal,
+                         .gap = gap - n.gap});
       });
 }
 
@@ -167,21 +167,16 @@ void find_nucleus_contacts(const ContactInput& in, const ContactWorkspace& corti
       work.cortex.push_back(b);
   }
   work.body.resize(work.cortex.size());
-  work.found.resize(work.cortex.size());
-  for_each_index(work.cortex.size(), worth_threads(in.state.n_row()), [&](std::size_t k) {
+  const auto find = [&](std::size_t k, contact::Contacts& found) {
     const std::size_t lane = cortices.lane_of_body[work.cortex[k]];
     contact::SurfaceBody& nucleus = work.body[k];
     nucleus.topology = in.state.group[lane / kLanes].nucleus.topology;
     nucleus.triangle = &nucleus.topology->triangle;
     copy_nucleus(in.state, lane, nucleus.node);
     contact::refresh_body(nucleus);
-    work.found[k].clear();
-    find_in_cell(in, cortices, k, work);
-  });
-  for (const auto& found : work.found) {
-    make_room(contacts.all, found.size());
-    contacts.all.insert(contacts.all.end(), found.begin(), found.end());
-  }
+    find_in_cell(in, cortices, work, k, found);
+  };
+  append_in_order(work.cortex.size(), worth_threads(in.state.n_row()), contacts.all, find);
   contacts.close(contact::ContactKind::kNucleus);
 }
 

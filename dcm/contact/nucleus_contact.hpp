@@ -20,7 +20,6 @@ namespace acinus::dcm {
 struct NucleusWorkspace {
   std::vector<contact::SurfaceBody> body;  ///< of the nuclei; written by: find_nucleus_contacts
   std::vector<std::size_t> cortex;         ///< [body] number of its cortex in the contact workspace
-  std::vector<std::vector<contact::Contact>> found;  ///< [body]; likewise
 };
 
 /// Skin of the search, um: gap beyond contact up to which points are listed, as a step may close

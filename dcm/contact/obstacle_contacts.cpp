@@ -185,7 +185,7 @@ class VesselSearch {
 }  // namespace
 
 void find_obstacle_contacts(const ContactInput& in, const ContactWorkspace& work, int number,
-                            double range, std::vector<Contact>& out) {
+                            double range, contact::Contacts& out) {
   const contact::SurfaceBody& b = work.body[number];
   const SegmentCandidates& list = work.lists.segment[number];
   const ContactParams& c = in.options;
@@ -219,7 +219,7 @@ void find_obstacle_contacts(const ContactInput& in, const ContactWorkspace& work
   for (const VesselContact& v : scratch.found) out.push_back(v.contact);
 }
 
-void take_wall_contacts(const ContactInput& in, ContactWorkspace& work, std::vector<Contact>& all) {
+void take_wall_contacts(const ContactInput& in, ContactWorkspace& work, contact::Contacts& all) {
   work.wall.clear();
   if (!in.boundary.vessels.wall) return;
   const contact::WallMesh& mesh = *in.boundary.vessels.wall;

@@ -10,6 +10,7 @@
 #include "contact/maugis_overlap.hpp"
 #include "contact/pair_adhesion.hpp"
 #include "contact/vessel_yield.hpp"
+#include "core/parallel/append_in_order.hpp"
 #include "core/parallel/threads.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "dcm/contact/contact_points.hpp"
@@ -115,7 +116,7 @@ struct BodyPair {
     return at;
   }
 
-  void find(std::vector<Contact>& out) const {
+  void find(contact::Contacts& out) const {
     const std::vector<CurvedTriangle>&a = work.triangles.curved[list.body_a], &b = curved_b();
     const contact::CapOf side = is_fixed() ? contact::CapOf::kObjectMesh : contact::CapOf::kCell;
     for (std::size_t n = 0; n < list.point.size(); ++n) {
@@ -160,7 +161,7 @@ struct ObjectSearch {
   const std::vector<CurvedTriangle>& triangle;
   int body;
   double reach;  ///< um
-  std::vector<Contact>& out;
+  contact::Contacts& out;
 
   void find(int t, const contact::Gap& at, double curvature, const contact::MaugisLaw& law,
             const Contact& like) const {
@@ -239,7 +240,7 @@ void refresh_curved_triangles(ContactWorkspace& work) {
 }
 
 void find_triangle_contacts(const ContactInput& in, ContactWorkspace& work, double reach,
-                            std::vector<Contact>& out) {
+                            contact::Contacts& out) {
   TriangleContactWorkspace& scratch = work.triangles;
   const std::size_t n = work.body.size();
   scratch.curved.resize(n);
@@ -252,24 +253,21 @@ void find_triangle_contacts(const ContactInput& in, ContactWorkspace& work, doub
   refresh_curved_triangles(work);
 
   const std::vector<contact::Candidates>& pair = work.lists.pair;
-  scratch.found.resize(pair.size());
-  for_each_index(pair.size(), true, [&](std::size_t k) {
+  out.clear();
+  append_in_order(pair.size(), true, out, [&](std::size_t k, contact::Contacts& found) {
     const contact::Candidates& list = pair[k];
-    scratch.found[k].clear();
     if (list.point.empty()) return;
     if (list.body_a == list.body_b)
       contact::find_contacts(list, work.body, work.fixed, work.lists.options,
-                             relative_motion(work.lists, k), scratch.found[k]);
+                             relative_motion(work.lists, k), found);
     else
       BodyPair{in, work, law_between(in, work, list.body_a, list.body_b, reach), list, reach}.find(
-          scratch.found[k]);
+          found);
   });
-  out.clear();
-  for (const auto& found : scratch.found) out.insert(out.end(), found.begin(), found.end());
 }
 
 void find_triangle_obstacles(const ContactInput& in, const ContactWorkspace& work, int body,
-                             double reach, std::vector<Contact>& out) {
+                             double reach, contact::Contacts& out) {
   const ObjectSearch search{work.triangles.curved[body], body, reach, out};
   const SurfaceBody& b = work.body[body];
   const Vec3 middle = 0.5 * (b.box.low + b.box.high);
@@ -291,7 +289,7 @@ void find_triangle_obstacles(const ContactInput& in, const ContactWorkspace& wor
 
 void add_object_contacts(const contact::MaugisLaw& law, const CurvedTriangle& triangle,
                          const contact::SphericalCap& object, const Contact& like,
-                         const Vec3* center, std::vector<Contact>& out) {
+                         const Vec3* center, contact::Contacts& out) {
   const contact::TriangleContact found = contact::compute_object_contact(law, triangle, object);
   for (const contact::TrianglePart* part : {&found.push, &found.pull}) {
     if (!(part->area > 0)) continue;

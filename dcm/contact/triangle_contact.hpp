@@ -43,20 +43,20 @@ void refresh_curved_triangles(ContactWorkspace& work);
 /// @param reach  um, triangle_reach at present: lists may be older
 /// @pre refresh_lists
 void find_triangle_contacts(const ContactInput& in, ContactWorkspace& work, double reach,
-                            std::vector<contact::Contact>& out);
+                            contact::Contacts& out);
 
 /// Search for the contacts of the triangles of one body with walls and vessels; appends them.
 /// @param reach  um
 /// @pre find_triangle_contacts
 void find_triangle_obstacles(const ContactInput& in, const ContactWorkspace& work, int body,
-                             double reach, std::vector<contact::Contact>& out);
+                             double reach, contact::Contacts& out);
 
 /// Append the contacts of one triangle with an object.
 /// @param like    sides of the contact, without places
 /// @param center  of a ball, through which the force acts so that it has no moment; null: none
 void add_object_contacts(const contact::MaugisLaw& law, const contact::CurvedTriangle& triangle,
                          const contact::SphericalCap& object, const contact::Contact& like,
-                         const Vec3* center, std::vector<contact::Contact>& out);
+                         const Vec3* center, contact::Contacts& out);
 
 /// Add each contact's share of the area of its triangles to work.share, on side a and on side b if
 /// that is a cell: all points of a triangle have the share of the triangle.

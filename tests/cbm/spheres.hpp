@@ -27,9 +27,9 @@ struct Spheres {
   double time = 0;
   ContactWorkspace work;
   solve::System system;
-  contact::ContactList contacts;        ///< with obstacles, of the last find()
-  std::vector<contact::Contact> pairs;  ///< of the last find()
-  std::vector<std::int64_t> mother;     ///< empty: all are sisters
+  contact::ContactList contacts;     ///< with obstacles, of the last find()
+  contact::Contacts pairs;           ///< of the last find()
+  std::vector<std::int64_t> mother;  ///< empty: all are sisters
 
   explicit Spheres(const std::vector<NewCell>& cells) : state(make_state(cells)) {
     params[0].adhesion = 0.01;
@@ -52,11 +52,11 @@ struct Spheres {
     pairs.clear();
     visit_pairs(in, work, [this](const contact::Contact& c) { pairs.push_back(c); });
   }
-  const std::vector<contact::Contact>& sphere() const { return pairs; }
+  const contact::Contacts& sphere() const { return pairs; }
   std::span<const contact::Contact> obstacle() const { return contacts.sphere_obstacle(); }
   /// Links of what touches; near pairs that do not have links of zeros.
-  std::vector<solve::PointLink> links() const {
-    std::vector<solve::PointLink> out;
+  solve::PointLinks links() const {
+    solve::PointLinks out;
     for (const solve::PointLink& l : system.point_links)
       if (l.stiffness > 0 || l.friction > 0) out.push_back(l);
     return out;

@@ -34,7 +34,7 @@ TEST(Strength, ScalesAllThatAPairDoesByTheStrongerCell) {
   std::vector<Vec3> force(n, Vec3::Zero());
   std::vector<double> area(n), overlap(n), size(n);
   std::vector<std::pair<int, int>> touching;
-  std::vector<contact::Contact> listed;
+  contact::Contacts listed;
   const std::vector<double> r = full.radius();
   for (const contact::Contact& c : full.sphere()) {
     const std::size_t a = c.a, b = c.b;

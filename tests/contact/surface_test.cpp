@@ -42,9 +42,9 @@ std::vector<Candidates> find_candidates(const std::vector<SurfaceBody>& bodies,
   return lists;
 }
 
-std::vector<Contact> find_all(const std::vector<SurfaceBody>& bodies, const SearchOptions& o,
-                              const std::vector<SurfaceBody>& fixed = {}) {
-  std::vector<Contact> out;
+Contacts find_all(const std::vector<SurfaceBody>& bodies, const SearchOptions& o,
+                  const std::vector<SurfaceBody>& fixed = {}) {
+  Contacts out;
   for (const Candidates& c : find_candidates(bodies, fixed, o))
     find_contacts(c, bodies, fixed, o, 0, out);
   return out;
@@ -253,7 +253,7 @@ TEST(FindContacts, OldListsFindWhatNewListsFind) {
       for (Vec3& x : b.node) x += random.uniform(0, 0.15) * random.unit_vector();
       refresh_body(b);
     }
-    std::vector<Contact> old;
+    Contacts old;
     for (const Candidates& c : lists) find_contacts(c, bodies, {}, o, 0.3, old);
     const auto fresh = find_all(bodies, o);
     ASSERT_EQ(old.size(), fresh.size());

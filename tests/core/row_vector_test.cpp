@@ -10,7 +10,7 @@ namespace acinus {
 namespace {
 
 constexpr std::size_t kLong = 1 << 20;  // numbers, 8 MB
-constexpr bool kMapped = RowAllocator<double>::is_mapped(kLong);
+constexpr bool kMapped = RowVector<double>::allocator_type::is_mapped(kLong);
 
 TEST(RowVector, HasMemoryOnlyWhereItWasWritten) {
   if (!kMapped) GTEST_SKIP() << "arrays are not mapped with AddressSanitizer";
@@ -49,6 +49,20 @@ TEST(RowVector, ShortOnesAreCopiedAndCompared) {
   v.push_back(1);
   EXPECT_NE(copy, v);
   EXPECT_EQ(copy[3], 5);
+}
+
+TEST(LargeVector, KeepsItsValuesWhenItIsMapped) {
+  LargeVector<double> v(20, 3.0);
+  v.resize(kLong);
+  v[kLong - 1] = 4;
+  EXPECT_EQ(v[19], 3);
+  EXPECT_EQ(v[0], 3);
+  EXPECT_EQ(memory_of(v), v.capacity() * sizeof(double));
+  const LargeVector<double> copy = v;
+  v.resize(2);
+  v.shrink_to_fit();
+  EXPECT_EQ(v, LargeVector<double>(2, 3.0));
+  EXPECT_EQ(copy[kLong - 1], 4);
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/parallel/append_in_order.hpp"
+
 namespace acinus {
 namespace {
 
@@ -44,6 +46,20 @@ TEST_P(Threads, ShareNothingWithinSharedWork) {
   });
   EXPECT_EQ(done, 64);
   EXPECT_EQ(count_threads(100000), static_cast<std::size_t>(GetParam()));
+}
+
+TEST_P(Threads, AppendInTheOrderOfIndices) {
+  for (const std::size_t n : {0U, 1U, 5U, 12345U})
+    for (int round = 0; round < 20; ++round) {
+      std::vector<std::size_t> all{7}, expected{7};
+      const auto find = [](std::size_t k, std::vector<std::size_t>& out) {
+        for (std::size_t m = 0; m < k % 7; ++m) out.push_back(10 * k + m);
+        if (k % 97 == 0) std::this_thread::yield();  // its run comes late
+      };
+      for (std::size_t k = 0; k < n; ++k) find(k, expected);
+      append_in_order(n, true, all, find);
+      ASSERT_EQ(all, expected);
+    }
 }
 
 TEST_P(Threads, HandOnWhatAPartThrows) {

@@ -104,7 +104,7 @@ TEST(HeldCells, OfOthersTakeNoMemory) {
   const State copy = world.state;
   const bool owns = world.ranks.rank() == world.ranks.size() - 1;
   for (const State* s : {&std::as_const(world.state), &copy}) {
-    if (!RowAllocator<double>::is_mapped(s->last_move.size())) continue;
+    if (!RowVector<double>::allocator_type::is_mapped(s->last_move.size())) continue;
     const std::size_t memory = memory_of(s->last_move);
     EXPECT_TRUE(owns ? memory >= bytes : memory == 0) << memory << " bytes";
   }

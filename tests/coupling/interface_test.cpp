@@ -184,12 +184,12 @@ TEST(Interface, PressesOnThePresentAreaOfAStretchedSurface) {
   forces(rested, a, true);
   forces(stretched, b, true);
   const auto pressing = [](const Workspace& w) {
-    std::vector<contact::Contact> found;
+    contact::Contacts found;
     std::ranges::copy_if(w.contacts.interface(), std::back_inserter(found),
                          [](const contact::Contact& k) { return k.gap < 0; });
     return found;
   };
-  const std::vector<contact::Contact> x = pressing(a), y = pressing(b);
+  const contact::Contacts x = pressing(a), y = pressing(b);
   ASSERT_EQ(x.size(), y.size());
   ASSERT_GT(x.size(), 5u);
   for (std::size_t k = 0; k < x.size(); ++k) {

@@ -18,8 +18,8 @@
 namespace acinus::dcm {
 namespace {
 
-std::vector<solve::PointLink> node_links(const Clump& c) {
-  std::vector<solve::PointLink> links;
+solve::PointLinks node_links(const Clump& c) {
+  solve::PointLinks links;
   add_node_friction(c.input(), c.work, c.contacts, links);
   return links;
 }
@@ -188,7 +188,7 @@ TEST(NodeFriction, HoldsBackSurfacesThatStretchTogetherAsTheEdgeSquared) {
 
 TEST(NodeFriction, SameBitsForAnyNumberOfThreads) {
   const int before = thread_count();
-  std::vector<std::vector<solve::PointLink>> links;
+  std::vector<solve::PointLinks> links;
   for (int threads : {1, 2, 3}) {
     set_threads(threads);
     Clump c = make_bounded_clump(91);

@@ -272,7 +272,7 @@ TEST(TriangleContacts, MatrixResistsATilt) {
     const contact::CurvedTriangle t = contact::make_curved_triangle(x, 1 / radius);
     // The sphere of the triangle goes through its corners.
     const double rim = t.circumradius, cap = radius - std::sqrt(radius * radius - rim * rim);
-    std::vector<contact::Contact> found;
+    contact::Contacts found;
     add_object_contacts({.modulus = 10, .adhesion = 0, .cohesive_stress = 0}, t,
                         {middle + (cap - overlap) * Vec3::UnitZ(), -Vec3::UnitZ(), 0, 0}, {},
                         nullptr, found);
@@ -331,7 +331,7 @@ TEST(TriangleContacts, RubFromNodeToNode) {
   Clump c = make_triangle_clump(83);
   c.options.friction_form = FrictionForm::kNodes;
   c.find();
-  std::vector<solve::PointLink> links;
+  solve::PointLinks links;
   add_node_friction(c.input(), c.work, c.contacts, links);
   double touching = 0, friction = 0;
   for (const contact::Contact& k : c.surface()) touching += k.touching;

@@ -95,7 +95,7 @@ TEST(VesselWall, ForceIsThatOfTheBedUnderEveryPoint) {
 // At the stiffness of the start of the step, with adhesion: -F . dx = E(x + dx) - E(x - dx).
 void expect_energy_gradient(double deepest) {
   Clump c = cell_on_vessel(0.6, deepest, 0.01);
-  const std::vector<contact::Contact> start = c.contacts.all;
+  const contact::Contacts start = c.contacts.all;
   const solve::Links links = c.links;
   const geometry::Topology& t = geometry::shared_icosphere(162);
   const auto energy = [&](std::size_t l) {

@@ -55,7 +55,7 @@ struct JoinedCells {
                      stiffness = hold * random.uniform(1, 3);
         set_law(stiffness, friction, 0, normal, link);
         system.links.link.push_back(link);
-        system.links.law.emplace_back();
+        system.links.law.push_back({});
       }
     }
     op.prepare(system);

@@ -62,7 +62,7 @@ struct Clusters {
     set_law(stiffness, friction, 0, normal, link);
     if (a % 2 == 1) {
       system.links.link.push_back(link);
-      system.links.law.emplace_back();
+      system.links.law.push_back({});
     } else {
       system.point_links.push_back({a, b, link.normal, link.stiffness, link.friction});
     }

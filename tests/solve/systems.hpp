@@ -137,7 +137,7 @@ inline System make_system(std::uint64_t seed, int copies = 1) {
     set_law(only_pulls ? 0 : stiffness, only_pulls ? 0 : friction, random.uniform(-1, 1), normal,
             link);
     s.links.link.push_back(link);
-    s.links.law.emplace_back();
+    s.links.law.push_back({});
   }
   for (int k = 0; k < 20 * copies; ++k) {
     places.start();

@@ -137,7 +137,7 @@ class Tissue {
       set_law(k == 3 || k == 4 ? 0 : stiffness, k == 4 || k == 5 ? 0 : friction, 0,
               random_.unit_vector(), link);
       system.links.link.push_back(link);
-      system.links.law.emplace_back();
+      system.links.law.push_back({});
     }
   }
   void add_point_contact() {

@@ -1,10 +1,12 @@
-#include "core/parallel/row_vector.hpp"
+#include "core/parallel/pages.hpp"
 
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
+#include <new>
+#include <vector>
 
 namespace acinus {
 
