@@ -94,6 +94,70 @@ std::vector<std::uint8_t> mark_absent(std::span<const SelectedCell<State>> membe
   return absent;
 }
 
+/// Gives a composed state all values of one cell that have no place in its model: leader, cycle,
+/// change of model, guidance, signals, sleep and holder.
+/// @param has_cycle  false: another process has it
+/// @param holder     [dcm lanes, then lanes of spheres] holders of all cells; empty: none
+void copy_values(const State& from, std::size_t at, bool has_cycle, const State& like, State& s,
+                 std::size_t to, std::vector<int>& holder) {
+  const std::size_t n_cell = s.leader.size();
+  s.leader[to] = value_of(from.leader, at, std::uint8_t{0});
+  if (has_cycle) s.cycle[to] = value_of(from.cycle, at, Cycle{});
+  if (!from.model_since.empty()) {
+    s.model_since.resize(n_cell, like.clock.origin);
+    s.model_since[to] = from.model_since[at];
+  }
+  if (!from.cell_holder.empty()) {
+    holder.resize(s.dcm.n_lane() + s.cbm.n_row() * kLanes, kEverywhere);
+    holder[to] = from.cell_holder[at];
+  }
+  if (!from.guidance.empty()) {
+    s.guidance.resize(n_cell);
+    s.guidance[to] = from.guidance[at];
+  }
+  size_signals(from, n_cell, s);
+  copy_signals(from, at, s, to);
+  if (value_of(from.asleep, at, std::uint8_t{0}) == 0) return;
+  s.asleep.resize(n_cell, 0);
+  s.asleep[to] = 1;
+}
+
+/// Copies the last moves of all points of the cells that have them.
+/// @param lane  [dcm] lane of each deformable cell in the composed state
+void copy_last_moves(std::span<const SelectedCell<State>> dcm,
+                     std::span<const SelectedCell<State>> cbm, std::span<const std::size_t> lane,
+                     State& s) {
+  const bool shared = worth_threads(s.dcm.n_row() + s.cbm.n_row());
+  for_each_index(dcm.size(), shared, [&](std::size_t k) {
+    const State& from = *dcm[k].state;
+    if (!has_last_move(from)) return;
+    const int n_point = from.dcm.group[dcm[k].index / kLanes].n_point();
+    for (int i = 0; i < n_point; ++i)
+      copy_move(from, dcm::node_address(from.dcm, dcm[k].index, i), s,
+                dcm::node_address(s.dcm, lane[k], i));
+  });
+  for_each_index(cbm.size(), shared, [&](std::size_t k) {
+    const State& from = *cbm[k].state;
+    if (!has_last_move(from)) return;
+    copy_move(from, cbm::cell_address(from.dcm.n_row(), cbm[k].index), s,
+              cbm::cell_address(s.dcm.n_row(), k));
+  });
+}
+
+/// Copies what a state has of the whole tissue: clock, balance, intervals and counters.
+void copy_clocks(const State& from, State& s) {
+  s.clock = from.clock;
+  s.balance = from.balance;
+  s.leader_interval = from.leader_interval;
+  s.life_interval = from.life_interval;
+  s.sleep_interval = from.sleep_interval;
+  s.signal.interval = from.signal.interval;
+  s.fading = from.fading;
+  s.next_lineage = from.next_lineage;
+  s.divisions = from.divisions;
+  s.deaths = from.deaths;
+}
+
 }  // namespace
 
 State compose(std::span<const SelectedCell<State>> dcm, std::span<const SelectedCell<State>> cbm,
@@ -113,65 +177,21 @@ State compose(std::span<const SelectedCell<State>> dcm, std::span<const Selected
   s.leader.assign(n_cell, 0);
   s.cycle = make_zeros<Cycle>(n_cell);
   std::fill_n(s.cycle.begin(), s.dcm.n_lane(), Cycle{});
-  s.last_move = make_zeros<double>(s.dcm.position.size() + s.cbm.position.size());
   std::vector<int> holder;
-  const auto copy_cell = [&](const State& from, std::size_t at, std::size_t to, bool has_cycle) {
-    s.leader[to] = value_of(from.leader, at, std::uint8_t{0});
-    if (has_cycle) s.cycle[to] = value_of(from.cycle, at, Cycle{});
-    if (!from.model_since.empty()) {
-      s.model_since.resize(n_cell, like.clock.origin);
-      s.model_since[to] = from.model_since[at];
-    }
-    if (!from.cell_holder.empty()) {
-      holder.resize(s.dcm.n_lane() + s.cbm.n_row() * kLanes, kEverywhere);
-      holder[to] = from.cell_holder[at];
-    }
-    if (!from.guidance.empty()) {
-      s.guidance.resize(n_cell);
-      s.guidance[to] = from.guidance[at];
-    }
-    size_signals(from, n_cell, s);
-    copy_signals(from, at, s, to);
-    if (value_of(from.asleep, at, std::uint8_t{0}) == 0) return;
-    s.asleep.resize(n_cell, 0);
-    s.asleep[to] = 1;
-  };
   for (std::size_t k = 0; k < dcm.size(); ++k)
-    copy_cell(*dcm[k].state, dcm[k].index, lane[k], true);
+    copy_values(*dcm[k].state, dcm[k].index, true, like, s, lane[k], holder);
   for (std::size_t k = 0; k < cbm.size(); ++k)
-    copy_cell(*cbm[k].state, cell_index(*cbm[k].state, cbm[k].index), cell_index(s, k),
-              no_sphere.empty() || no_sphere[k] == 0);
+    copy_values(*cbm[k].state, cell_index(*cbm[k].state, cbm[k].index),
+                no_sphere.empty() || no_sphere[k] == 0, like, s, cell_index(s, k), holder);
   s.cell_holder = PagedValues(holder);
   if (std::ranges::any_of(cbm, [](const auto& c) { return !c.state->holder.empty(); }))
     s.holder = {cbm.size(), [&](std::size_t k) {
                   const State& from = *cbm[k].state;
                   return from.holder.empty() ? kEverywhere : from.holder[cbm[k].index];
                 }};
-  const bool shared = worth_threads(s.dcm.n_row() + s.cbm.n_row());
-  for_each_index(dcm.size(), shared, [&](std::size_t k) {
-    const State& from = *dcm[k].state;
-    if (!has_last_move(from)) return;
-    const int n_point = from.dcm.group[dcm[k].index / kLanes].n_point();
-    for (int i = 0; i < n_point; ++i)
-      copy_move(from, dcm::node_address(from.dcm, dcm[k].index, i), s,
-                dcm::node_address(s.dcm, lane[k], i));
-  });
-  for_each_index(cbm.size(), shared, [&](std::size_t k) {
-    const State& from = *cbm[k].state;
-    if (!has_last_move(from)) return;
-    copy_move(from, cbm::cell_address(from.dcm.n_row(), cbm[k].index), s,
-              cbm::cell_address(s.dcm.n_row(), k));
-  });
-  s.clock = like.clock;
-  s.balance = like.balance;
-  s.leader_interval = like.leader_interval;
-  s.life_interval = like.life_interval;
-  s.sleep_interval = like.sleep_interval;
-  s.signal.interval = like.signal.interval;
-  s.fading = like.fading;
-  s.next_lineage = like.next_lineage;
-  s.divisions = like.divisions;
-  s.deaths = like.deaths;
+  s.last_move = make_zeros<double>(s.dcm.position.size() + s.cbm.position.size());
+  copy_last_moves(dcm, cbm, lane, s);
+  copy_clocks(like, s);
   if (stands != nullptr) *stands = std::move(lane);
   return s;
 }
