@@ -8,6 +8,7 @@
 #include "coupling/migration/leaders.hpp"
 #include "coupling/step/held_cells.hpp"
 #include "coupling/step/held_contacts.hpp"
+#include "coupling/subworld/late_steps.hpp"
 #include "coupling/subworld/ring.hpp"
 #include "coupling/world/cell.hpp"
 
@@ -144,7 +145,10 @@ StepResult step_awake(World& world, Workspace& w, AwakePart& kept, CellSet awake
 }  // namespace
 
 StepResult advance(World& world, Workspace& w, AwakePart& part, double limit) {
-  if (count_asleep(world.state) == 0) return take_step(world, w, limit);
+  if (count_asleep(world.state) == 0) {
+    const LateSteps late = late_steps(world, w);
+    return take_step(world, w, limit, &late);
+  }
   complete_cells(world.ranks, world.state);
   CellSet awake = find_cells(world.state, false);
   if (awake.empty()) return pass_time(world, limit);

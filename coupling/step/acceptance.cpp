@@ -17,6 +17,7 @@
 #include "coupling/step/cell_sums.hpp"
 #include "coupling/step/clearance.hpp"
 #include "coupling/step/error_estimate.hpp"
+#include "coupling/step/turned_faces.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -42,52 +43,6 @@ double edge_of(const World& world, const Workspace& w, std::size_t lane) {
   const std::size_t cell = lane - s.dcm.n_lane();
   if (cell < s.cbm.n_cell()) return kSphereEdge * w.cbm_radius[cell];
   return std::ranges::min(world.params.tree.tube, {}, &Tube::radius).radius;
-}
-
-/// Least share of its area that a face keeps in a step, projected on its normal: faces that shrink
-/// faster are resolved by shorter steps before their normal degenerates.
-constexpr double kLeastArea = 0.25;
-
-/// True if a move inverts a face, or nearly, or folds two faces of an edge through each other.
-/// @param first  number of the first node of the mesh among the points of the cell
-bool turns_over(const dcm::State& s, std::size_t lane, const geometry::Topology& t, int first,
-                std::span<const double> move) {
-  struct Normals {
-    Vec3 before, after;
-  };
-  thread_local std::vector<Normals> normal;
-  normal.clear();
-  for (const auto& corner : t.triangle) {
-    Vec3 before[3], after[3];
-    for (std::size_t m = 0; m < 3; ++m) {
-      const Address a = dcm::node_address(s, lane, first + corner[m]);
-      before[m] = load_point(s.position.data(), a);
-      after[m] = before[m] + load_point(move.data(), a);
-    }
-    normal.push_back({(before[1] - before[0]).cross(before[2] - before[0]),
-                      (after[1] - after[0]).cross(after[2] - after[0])});
-    const auto& [was, is] = normal.back();
-    if (!(was.dot(is) > kLeastArea * was.squaredNorm())) return true;
-  }
-  for (std::size_t e = 0; e < t.edge.size(); ++e) {
-    const Normals &f = normal[t.edge_triangle[e][0]], &g = normal[t.edge_triangle[e][1]];
-    if (f.before.dot(g.before) > 0 || f.after.dot(g.after) > 0) continue;
-    // Faces beyond a right angle on both sides of the step: the edge must bend the same way still.
-    const Address a = dcm::node_address(s, lane, first + t.edge[e][0]),
-                  b = dcm::node_address(s, lane, first + t.edge[e][1]);
-    const Vec3 along = load_point(s.position.data(), b) - load_point(s.position.data(), a);
-    const Vec3 moved = load_point(move.data(), b) - load_point(move.data(), a);
-    if (f.before.cross(g.before).dot(along) * f.after.cross(g.after).dot(along + moved) < 0)
-      return true;
-  }
-  return false;
-}
-
-/// True if a move inverts a face of the cortex or the nucleus of a cell.
-bool turns_over(const dcm::State& s, std::size_t lane, std::span<const double> move) {
-  const dcm::Group& g = s.group[lane / kLanes];
-  if (turns_over(s, lane, *g.topology, 0, move)) return true;
-  return g.nucleus.exists() && turns_over(s, lane, *g.nucleus.topology, g.topology->n_node, move);
 }
 
 /// Extremes of the displacements of cells.
@@ -230,6 +185,12 @@ double depth_after(const World& world, const Workspace& w, std::size_t l) {
   return deep ? -end : 0;
 }
 
+/// Lanes of the two sides of a contact; equal: with boundary or its own nucleus.
+std::array<std::size_t, 2> lanes_of(const Workspace& w, const solve::Link& link) {
+  const std::size_t a = w.system.lane_of(link.a.point[0]);
+  return {a, link.b.exists() ? w.system.lane_of(link.b.point[0]) : a};
+}
+
 /// Contact that ends too deep.
 struct DeepContact {
   /// Key in the list of contacts: kind, and the lanes or numbers of the two sides.
@@ -247,8 +208,8 @@ DeepContact describe_contact(const World& world, const Workspace& w, std::size_t
   DeepContact deep;
   deep.inner = kind == contact::ContactKind::kNucleus;
   deep.pair = link.b.exists();
-  deep.a = w.system.lane_of(link.a.point[0]);
-  deep.b = deep.pair ? w.system.lane_of(link.b.point[0]) : deep.a;
+  deep.a = lanes_of(w, link)[0];
+  deep.b = lanes_of(w, link)[1];
   deep.depth = depth_after(world, w, l);
   const bool of_cells =
       kind == contact::ContactKind::kSurface || kind == contact::ContactKind::kInterface;
@@ -268,6 +229,8 @@ std::optional<DeepContact> find_deep_contact(const World& world, const Workspace
   std::atomic<std::size_t> first = n;
   for_each_index(n, worth_threads(w.system.n_row), [&](std::size_t l) {
     if (!(depth_after(world, w, l) > 0)) return;
+    const auto [a, b] = lanes_of(w, w.system.links.link[l]);
+    if (w.is_late(a) || w.is_late(b)) return;
     for (std::size_t found = first; l < found && !first.compare_exchange_weak(found, l);) {
     }
   });
@@ -324,6 +287,36 @@ Assessment assess_contacts(const World& world, const Workspace& w) {
 
 double move_limit(double max_move, double mean_edge) {
   return max_move > 0 ? max_move * mean_edge : std::numeric_limits<double>::infinity();
+}
+
+std::vector<std::size_t> find_hasty_cells(const World& world, double step, Workspace& w) {
+  const State& s = world.state;
+  const Numerics& n = world.params.numerics;
+  const PointErrors errors(world, step, w);
+  const double most_error = kMostOverMean * kErrorAim * n.tolerance;
+  std::vector<std::size_t> hasty;
+  for_each_own_cell<std::vector<std::size_t>>(
+      w, true,
+      [&](std::size_t lane, Address first, int n_point, std::vector<std::size_t>& part) {
+        double move2 = 0, error2 = 0;
+        for (int i = 0; i < n_point; ++i) {
+          const Address at = first + static_cast<Address>(i * kPointStride);
+          move2 = std::max(move2, load_point(w.move.data(), at).squaredNorm());
+        }
+        errors.for_each(first, n_point,
+                        [&](const Vec3& e) { error2 = std::max(error2, e.squaredNorm()); });
+        const double limit = kMoveShare * move_limit(n.max_move, edge_of(world, w, lane));
+        if (!(move2 <= limit * limit) || !(error2 <= most_error * most_error) ||
+            (lane < s.dcm.n_lane() && turns_over(s.dcm, lane, w.move)))
+          part.push_back(lane);
+      },
+      [&](const std::vector<std::size_t>& part) {
+        hasty.insert(hasty.end(), part.begin(), part.end());
+      });
+  for (std::size_t l = 0; l < w.system.links.size(); ++l)
+    if (depth_after(world, w, l) > 0)
+      for (const std::size_t lane : lanes_of(w, w.system.links.link[l])) hasty.push_back(lane);
+  return hasty;
 }
 
 Assessment assess_step(const World& world, double step, double part, const Status& solved,

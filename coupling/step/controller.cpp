@@ -38,7 +38,7 @@ double next_step(const Numerics& n, double step, const Assessment& a) {
   if (!n.adaptive) return n.max_step;
   constexpr double kLeast = 0.5, kMost = 2;
   double factor = kMost;
-  if (a.error > 0) factor = std::min(factor, 0.9 * std::sqrt(n.tolerance / a.error));
+  if (a.error > 0) factor = std::min(factor, kErrorShare * std::sqrt(n.tolerance / a.error));
   if (a.excess > 0) factor = std::min(factor, kMoveShare / a.excess);
   return std::clamp(step * std::max(factor, kLeast), n.min_step, n.max_step);
 }
@@ -95,9 +95,23 @@ void commit(double step, const Effort& effort, World& world, Workspace& w) {
   s.clock.coarse = want_coarse(s, effort.cg_iterations / std::max(effort.solves, 1));
 }
 
+/// Advances late cells by themselves if there are few and the step suits all others.
+/// @param a  assessment of the displacement of all; on return, if true, of the others
+bool let_late_cells_step(const World& world, double step, const LateSteps& late, Workspace& w,
+                         Assessment& a) {
+  const std::vector<std::size_t> cells = find_late_cells(world, step, a, w);
+  if (cells.empty()) return false;
+  mark_late(cells, w);
+  const Assessment others = assess_step(world, step, 1, {}, w);
+  w.late.clear();
+  if (!others.accepted || !late.advance(step, cells)) return false;
+  a = others;
+  return true;
+}
+
 }  // namespace
 
-StepResult take_step(World& world, Workspace& w, double limit) {
+StepResult take_step(World& world, Workspace& w, double limit, const LateSteps* late) {
   State& s = world.state;
   const Numerics& n = world.params.numerics;
   hand_over_contacts(world.ranks, w, s);
@@ -112,13 +126,15 @@ StepResult take_step(World& world, Workspace& w, double limit) {
     Assessment a = attempt_step(world, computed, result.rejections == 0, w, effort);
     Balance balance = s.balance;
     if (a.accepted || a.usable > 0) record_balance(world, w, balance);
+    const bool has_late = late != nullptr && let_late_cells_step(world, computed, *late, w, a);
     const double part = shorten_step(world, computed, w, a), step = part * computed;
     if (a.accepted) {
       const auto scope = w.timings.scope("commit");
       s.balance = balance;
       commit(step, effort, world, w);
+      if (has_late) late->write();
       s.clock.rejected += result.rejections;
-      s.clock.shortened += part < 1 ? 1 : 0;
+      s.clock.shortened += part < 1 || has_late ? 1 : 0;
       // A step that ends at an event predicts little about the length of the next.
       s.clock.step = computed < wanted ? wanted : next_step(n, step, a);
       result.accepted = true;

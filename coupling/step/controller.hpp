@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/step/late_cells.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 
@@ -24,8 +25,9 @@ struct StepResult {
 
 /// Advances all cells by one accepted step no longer than `limit`, after as many shorter retries as
 /// needed. Constrained cells follow the constraint.
+/// @param late  steps of late cells; null: all cells take the same steps
 /// @return not accepted if a step of min_step was rejected or the process was asked to stop; State
 /// is then the last accepted one
-StepResult take_step(World& world, Workspace& work, double limit);
+StepResult take_step(World& world, Workspace& work, double limit, const LateSteps* late = nullptr);
 
 }  // namespace acinus::coupling

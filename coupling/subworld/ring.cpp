@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 #include "cbm/contact.hpp"
+#include "coupling/step/held_cells.hpp"
+#include "coupling/world/cell.hpp"
 #include "dcm/contact/contact.hpp"
 #include "dcm/contact/triangle_contact.hpp"
 
@@ -28,7 +31,18 @@ double contact_reach(const World& world) {
   const Params& p = world.params;
   const std::vector<double> shell = dcm::reference_radii(s.dcm, s.clock.time),
                             sphere = cbm::radii_at(s.cbm, s.clock.time);
-  double reach = cbm::largest_separation(s.cbm, p.cbm, sphere, p.boundary) + p.cbm_contact.skin;
+  double largest = 0, negative_young = -std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < s.cbm.n_cell(); ++c) {
+    if (!holds_points(world.ranks, s, cell_index(s, c))) continue;
+    largest = std::max(largest, sphere[c]);
+    negative_young = std::max(negative_young, -s.cbm.young[c]);
+  }
+  if (s.near_set != 0) {
+    largest = world.ranks.max(largest);
+    negative_young = world.ranks.max(negative_young);
+  }
+  double reach =
+      cbm::largest_separation(p.cbm, {-negative_young, largest}, p.boundary) + p.cbm_contact.skin;
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
     if (s.dcm.active(l))
       reach = std::max(reach, p.dcm_contact.skin +

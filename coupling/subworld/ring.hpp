@@ -10,6 +10,7 @@ CellSet unite(const CellSet& a, const CellSet& b);
 CellSet subtract(const CellSet& a, const CellSet& b);
 
 /// Gap, um, beyond which two cells cannot interact, with a reserve for growth during a step.
+/// Collective.
 double contact_reach(const World& world);
 
 /// Cells needed around others in their step: all contact candidates, and the neighbours of spheres

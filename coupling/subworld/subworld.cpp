@@ -130,6 +130,8 @@ void take_cells(const State& state, CellSet moving, CellSet constrained, Subworl
   for (std::size_t k = moving.dcm.size(); k < lane.size(); ++k) is_constrained[lane[k]] = 1;
   for (std::size_t k = moving.cbm.size(); k < spheres.size(); ++k)
     is_constrained[cell_index(small, k)] = 1;
+  const auto first_constrained = lane.begin() + static_cast<std::ptrdiff_t>(moving.dcm.size());
+  sub.constrained_lane.assign(first_constrained, lane.end());
   lane.resize(moving.dcm.size());
   const bool same =
       have_same_cells(small, sub.world.state) && is_constrained == sub.work.constraint.cell;

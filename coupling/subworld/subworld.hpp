@@ -24,8 +24,9 @@ CellSet find_neighbours(const World& world, const CellSet& cells, double reach);
 struct Subworld {
   World world;  ///< moving cells first
   Workspace work;
-  CellSet moving, constrained;    ///< cells of the whole world
-  std::vector<std::size_t> lane;  ///< [moving.dcm] their lanes in the subworld
+  CellSet moving, constrained;  ///< cells of the whole world
+  /// Lanes in the subworld, [moving.dcm] and [constrained.dcm].
+  std::vector<std::size_t> lane, constrained_lane;
 };
 
 /// Copies cells with clock and references into a subworld whose parameters are set. Its workspace

@@ -83,13 +83,17 @@ struct Workspace {
   RowVector<double> position;           ///< [n_row][3][lane]; written by: add_loads
   std::vector<std::uint8_t> active;     ///< written by: size_workspace
   Constraint constraint;                ///< set by the owner
-  RowVector<double> rhs;                ///< written by: solve_step
-  RowVector<double> move;               ///< displacement of the step; written by: solve_step
-  LinearisationPoint linearisation;     ///< written by: choose_linearisation_point
-  int failed_solves = 0;                ///< of this step; written by: take_step, assess_step
-  std::vector<std::uint8_t> leader;     ///< written by: refresh_migration
+  /// [lane of all blocks] 1: late cell, which takes shorter steps of its own in this step
+  /// (step/late_cells.hpp); empty: none
+  std::vector<std::uint8_t> late;
+  RowVector<double> rhs;             ///< written by: solve_step
+  RowVector<double> move;            ///< displacement of the step; written by: solve_step
+  LinearisationPoint linearisation;  ///< written by: choose_linearisation_point
+  int failed_solves = 0;             ///< of this step; written by: take_step, assess_step
+  std::vector<std::uint8_t> leader;  ///< written by: refresh_migration
   std::int64_t leader_interval = -1;
   Timings timings;
+  bool is_late(std::size_t lane) const { return !late.empty() && late[lane] != 0; }
   std::uint64_t sized = 0;  ///< number of calls of size_workspace: changes with the set of cells
 };
 
