@@ -116,8 +116,9 @@ struct Clock {
   double step = 0;         ///< s, length of the next step
   double last_step = 0;    ///< s, length of the last accepted step; 0 = none
   std::int64_t accepted = 0, rejected = 0, cg_iterations = 0;
-  std::int64_t shortened =
-      0;                    ///< accepted steps that are part of a computed one (step/shorten.hpp)
+  /// Accepted steps that are part of a computed one (step/shorten.hpp) or had late cells
+  /// (step/late_cells.hpp).
+  std::int64_t shortened = 0;
   bool coarse = false;      ///< true: coarse space of the solver is on, by the effort of solves
   std::int64_t solves = 0;  ///< linear systems of accepted and rejected steps
   std::int64_t longest_solve = 0;  ///< iterations, of the last step
