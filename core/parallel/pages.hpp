@@ -29,7 +29,7 @@ struct MappingAllocator {
   static_assert(std::is_trivially_destructible_v<T>);
   template <class U>
   struct rebind {  // NOLINT(readability-identifier-naming): a name of the standard library
-    using other = MappingAllocator<U, kSmallest>;
+    using other = MappingAllocator<U, kSmallest>;  // NOLINT(readability-identifier-naming)
   };
 
   MappingAllocator() = default;
