@@ -41,6 +41,8 @@ CASES = {
     # Slow: the sizes of docs/developers/scaling_model.md.
     "lobule_hybrid": [os.path.join(SCENES, "lobule_hybrid.json"), "--until", "2 h"],
     "spheroid64": [os.path.join(SCENES, "spheroid.json"), "--until-cells", "64"],
+    # Steps with late cells.
+    "late_cells": [os.path.join(SCENES, "spheroid.json"), "--until-cells", "230", "--set", "time.tolerance=0.12 um"],
     "spheroid_cbm2000": [os.path.join(SCENES, "spheroid_cbm.json"), "--until-cells", "2000"],
     "regeneration": [os.path.join(SCENES, "regeneration.json"), "--set", "start_up.growth_time=2 h", "--set",
                      "cell_types.hepatocyte.dcm.nodes=42", "--until", "6 h"],
