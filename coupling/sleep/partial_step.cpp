@@ -47,9 +47,7 @@ void take_part(const World& world, CellSet moving, CellSet constrained, Subworld
 
 std::unique_ptr<Subworld> make_part(const World& world) {
   auto part = std::make_unique<Subworld>();
-  part->world.params = world.params;
-  part->world.ranks = world.ranks;
-  part->world.sharing = world.sharing;
+  take_params(world, *part);
   return part;
 }
 

@@ -208,8 +208,9 @@ DeepContact describe_contact(const World& world, const Workspace& w, std::size_t
   DeepContact deep;
   deep.inner = kind == contact::ContactKind::kNucleus;
   deep.pair = link.b.exists();
-  deep.a = lanes_of(w, link)[0];
-  deep.b = lanes_of(w, link)[1];
+  const auto [lane_a, lane_b] = lanes_of(w, link);
+  deep.a = lane_a;
+  deep.b = lane_b;
   deep.depth = depth_after(world, w, l);
   const bool of_cells =
       kind == contact::ContactKind::kSurface || kind == contact::ContactKind::kInterface;
@@ -289,12 +290,12 @@ double move_limit(double max_move, double mean_edge) {
   return max_move > 0 ? max_move * mean_edge : std::numeric_limits<double>::infinity();
 }
 
-std::vector<std::size_t> find_hasty_cells(const World& world, double step, Workspace& w) {
+std::vector<std::size_t> find_limiting_cells(const World& world, double step, Workspace& w) {
   const State& s = world.state;
   const Numerics& n = world.params.numerics;
   const PointErrors errors(world, step, w);
   const double most_error = kMostOverMean * kErrorAim * n.tolerance;
-  std::vector<std::size_t> hasty;
+  std::vector<std::size_t> limiting;
   for_each_own_cell<std::vector<std::size_t>>(
       w, true,
       [&](std::size_t lane, Address first, int n_point, std::vector<std::size_t>& part) {
@@ -311,12 +312,12 @@ std::vector<std::size_t> find_hasty_cells(const World& world, double step, Works
           part.push_back(lane);
       },
       [&](const std::vector<std::size_t>& part) {
-        hasty.insert(hasty.end(), part.begin(), part.end());
+        limiting.insert(limiting.end(), part.begin(), part.end());
       });
   for (std::size_t l = 0; l < w.system.links.size(); ++l)
     if (depth_after(world, w, l) > 0)
-      for (const std::size_t lane : lanes_of(w, w.system.links.link[l])) hasty.push_back(lane);
-  return hasty;
+      for (const std::size_t lane : lanes_of(w, w.system.links.link[l])) limiting.push_back(lane);
+  return limiting;
 }
 
 Assessment assess_step(const World& world, double step, double part, const Status& solved,

@@ -30,8 +30,8 @@ inline constexpr double kSphereEdge = 0.3;  ///< mean edge of a 162-node mesh, i
 /// Share of the largest displacement that a shortened step takes and the next step aims at.
 inline constexpr double kMoveShare = 0.95;
 
-/// Part of the step at which the estimated error would be the tolerance that the next step aims at,
-/// and the error to expect there, in tolerances.
+/// The next step aims at kErrorShare of the length whose estimated error would be the tolerance.
+/// The error is kErrorAim tolerances then.
 inline constexpr double kErrorShare = 0.9, kErrorAim = kErrorShare * kErrorShare;
 
 /// Largest estimated error of an accepted step, in tolerances, with step-size control.
@@ -40,7 +40,7 @@ inline constexpr double kMostError = 4;
 /// Lanes of own cells that reject a step or make the next one shorter: they are displaced beyond
 /// kMoveShare of their limit, exceed kErrorAim, have faces that turn over or contacts that end too
 /// deep.
-std::vector<std::size_t> find_hasty_cells(const World& world, double step, Workspace& work);
+std::vector<std::size_t> find_limiting_cells(const World& world, double step, Workspace& work);
 
 /// Accepts or rejects the displacement in work.move. Late cells are left out. Counts failed solves.
 /// @param step    s, length of the step

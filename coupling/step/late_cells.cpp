@@ -24,7 +24,7 @@ std::vector<std::size_t> find_late_cells(const World& world, double step, const 
   if (!(is_rejected || is_inaccurate) || !can_have_late_cells(world, w)) return {};
   const double most = kMostLate * static_cast<double>(count_cells(s));
   if (most < 1) return {};
-  std::vector<std::size_t> own = find_hasty_cells(world, step, w), late;
+  std::vector<std::size_t> own = find_limiting_cells(world, step, w), late;
   world.ranks.gather<std::size_t>(own, late);
   sort_unique(late);
   const bool has_spheres = !late.empty() && late.back() >= s.dcm.n_lane();

@@ -24,7 +24,7 @@ struct LateSteps {
 inline constexpr double kMostLate = 0.01;
 
 /// Lanes of late cells, ascending: those that reject the displacement in work.move or make the next
-/// step shorter (find_hasty_cells). None if spheres or more than kMostLate of the cells would be
+/// step shorter (find_limiting_cells). None if spheres or more than kMostLate of the cells would be
 /// late, if leaders or flexible vessels have to be computed with all cells, with a prescribed
 /// velocity, and with other than linearly implicit steps under step-size control. Collective.
 /// @param assessment  of the displacement

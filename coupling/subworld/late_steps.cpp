@@ -62,17 +62,15 @@ class LateCells {
     complete_contacts(world_.ranks, s);
     bring_points(world_.ranks, lanes, s);
     CellSet late{{lanes.begin(), lanes.end()}, {}}, ring = find_ring(world_, late);
+    const std::vector<std::size_t> around = lanes_of(s, ring);
+    bring_points(world_.ranks, around, s);
     std::vector<std::size_t> all = late.dcm;
-    all.insert(all.end(), ring.dcm.begin(), ring.dcm.end());
-    for (const std::size_t c : ring.cbm) all.push_back(cell_index(s, c));
-    bring_points(world_.ranks, all, s);
+    all.insert(all.end(), around.begin(), around.end());
     complete_shapes(world_.ranks, all, s);
     const std::vector<double> moves = gather_moves(world_, work_, all);
 
     sub_ = std::make_unique<Subworld>();
-    sub_->world.params = world_.params;
-    sub_->world.ranks = world_.ranks;
-    sub_->world.sharing = world_.sharing;
+    take_params(world_, *sub_);
     sub_->work.constraint.prescribed_velocity = true;
     take_cells(s, std::move(late), std::move(ring), *sub_);
     put_moves(moves, step, *sub_);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 
 #include "cbm/contact.hpp"
 #include "coupling/step/held_cells.hpp"
@@ -31,18 +30,15 @@ double contact_reach(const World& world) {
   const Params& p = world.params;
   const std::vector<double> shell = dcm::reference_radii(s.dcm, s.clock.time),
                             sphere = cbm::radii_at(s.cbm, s.clock.time);
-  double largest = 0, negative_young = -std::numeric_limits<double>::infinity();
+  cbm::Extremes extremes;
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c) {
     if (!holds_points(world.ranks, s, cell_index(s, c))) continue;
-    largest = std::max(largest, sphere[c]);
-    negative_young = std::max(negative_young, -s.cbm.young[c]);
+    extremes.largest = std::max(extremes.largest, sphere[c]);
+    extremes.softest = std::min(extremes.softest, s.cbm.young[c]);
   }
-  if (s.near_set != 0) {
-    largest = world.ranks.max(largest);
-    negative_young = world.ranks.max(negative_young);
-  }
-  double reach =
-      cbm::largest_separation(p.cbm, {-negative_young, largest}, p.boundary) + p.cbm_contact.skin;
+  if (s.near_set != 0)
+    extremes = {-world.ranks.max(-extremes.softest), world.ranks.max(extremes.largest)};
+  double reach = cbm::largest_separation(p.cbm, extremes, p.boundary) + p.cbm_contact.skin;
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
     if (s.dcm.active(l))
       reach = std::max(reach, p.dcm_contact.skin +

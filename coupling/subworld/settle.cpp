@@ -35,13 +35,6 @@ double pressure_of(const World& world, std::size_t lane, const std::vector<Vec3>
                                s.dcm.volume[lane].at(s.clock.time));
 }
 
-/// Lanes of cells among those of all rows of cells.
-std::vector<std::size_t> lanes_of(const State& s, const CellSet& cells) {
-  std::vector<std::size_t> lanes = cells.dcm;
-  for (const std::size_t c : cells.cbm) lanes.push_back(s.dcm.n_lane() + c);
-  return lanes;
-}
-
 /// Makes the steps of a subworld equal and uncontrolled.   @param step  s
 void set_newton_steps(double step, Subworld& sub) {
   Numerics& n = sub.world.params.numerics;

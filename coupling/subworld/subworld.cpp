@@ -80,6 +80,12 @@ void write_touching(const Subworld& sub, cbm::State& to) {
 
 }  // namespace
 
+std::vector<std::size_t> lanes_of(const State& s, const CellSet& cells) {
+  std::vector<std::size_t> lanes = cells.dcm;
+  for (const std::size_t c : cells.cbm) lanes.push_back(cell_index(s, c));
+  return lanes;
+}
+
 CellSet find_neighbours(const World& world, const CellSet& cells, double reach) {
   const State& s = world.state;
   const std::vector<double> radius = cbm::radii_at(s.cbm, s.clock.time);
@@ -117,6 +123,12 @@ CellSet find_neighbours(const World& world, const CellSet& cells, double reach) 
   return found;
 }
 
+void take_params(const World& world, Subworld& sub) {
+  sub.world.params = world.params;
+  sub.world.ranks = world.ranks;
+  sub.world.sharing = world.sharing;
+}
+
 void take_cells(const State& state, CellSet moving, CellSet constrained, Subworld& sub) {
   std::vector<SelectedCell<State>> shells, spheres;
   for (const CellSet* cells : {&moving, &constrained}) {
@@ -145,10 +157,8 @@ void take_cells(const State& state, CellSet moving, CellSet constrained, Subworl
 }
 
 void extract_at_rest(const World& world, CellSet moving, CellSet constrained, Subworld& sub) {
-  sub.world.ranks = world.ranks;
-  sub.world.sharing = world.sharing;
+  take_params(world, sub);
   Params& params = sub.world.params;
-  params = world.params;
   contact::for_each_wall(params.boundary, [&](auto, auto, auto& wall) {
     contact::stop_wall(wall, time_since_start(world));
   });

@@ -17,6 +17,9 @@ struct CellSet {
   bool empty() const { return dcm.empty() && cbm.empty(); }
 };
 
+/// Lanes of a set of cells among those of all rows of cells.
+std::vector<std::size_t> lanes_of(const State& state, const CellSet& cells);
+
 /// Neighbours of a set of cells: the others whose bounding boxes come within `reach`, um. Each
 /// process tests the cells whose points it has. Collective.   @pre all have the points of `cells`
 CellSet find_neighbours(const World& world, const CellSet& cells, double reach);
@@ -28,6 +31,9 @@ struct Subworld {
   /// Lanes in the subworld, [moving.dcm] and [constrained.dcm].
   std::vector<std::size_t> lane, constrained_lane;
 };
+
+/// Gives a subworld the parameters of a world and its processes.
+void take_params(const World& world, Subworld& sub);
 
 /// Copies cells with clock and references into a subworld whose parameters are set. Its workspace
 /// is kept while the set of cells is the same.
