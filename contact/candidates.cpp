@@ -44,31 +44,6 @@ ACINUS_KERNEL void compute_bounds(const float* number, std::size_t n,
 /// Largest distance of the entries of a list, um.
 double compute_margin(const SearchOptions& o) { return std::max(o.range, o.max_depth) + o.skin; }
 
-/// Candidate list in full precision, as it is made; grows as needed.
-struct WideCandidates {
-  std::vector<int> point;
-  std::vector<float> gap;
-  std::vector<std::uint32_t> start;
-  std::vector<int> triangle;
-  std::vector<float> bound;
-
-  void clear() {
-    point.clear();
-    gap.clear();
-    start.clear();
-    triangle.clear();
-    bound.clear();
-  }
-  /// Copies the list to measure.
-  void store(Candidates& to) const {
-    to.point = std::vector<int>(point);
-    to.gap = std::vector<HalfFloat>(gap.size());
-    for (std::size_t k = 0; k < gap.size(); ++k) to.gap[k] = HalfFloat(gap[k]);
-    to.start = std::vector<std::uint32_t>(start);
-    to.near.assign(triangle, bound);
-  }
-};
-
 /// Builder of candidate lists, reused from list to list.
 class ListBuilder {
  public:
@@ -392,7 +367,7 @@ void fill_candidates(std::span<const SurfaceBody> bodies, std::span<const Surfac
     const SurfaceBody& b = body_at(bodies, fixed, lists[k]->body_b);
     scratch.clear();
     if (may_touch(a, b)) builder.fill(a, b, &a == &b, scratch);
-    scratch.store(*lists[k]);
+    lists[k]->list.assign(scratch);
   });
 }
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "contact/candidate_list.hpp"
 #include "contact/record.hpp"
 #include "contact/surface.hpp"
-#include "contact/triangle_list.hpp"
 
 namespace acinus::contact {
 
@@ -23,15 +23,13 @@ struct SearchOptions {
   bool triangles = false;
 };
 
-/// Candidate list of a pair of bodies: points of a near b with the triangles that may be closest to
-/// each; between triangles, triangles of a near b with those within the range of each. Complete
-/// while the bodies have moved relative to each other by no more than the skin.
+/// Candidate list of a pair of bodies: points of a near b, ascending, with the triangles of b that
+/// may be closest to each, the closest first; between triangles, triangles of a near b with those
+/// within the range of each. Gaps and bounds are those of when the list was made. Complete while
+/// the bodies have moved relative to each other by no more than the skin.
 struct Candidates {
   int body_a = 0, body_b = 0;
-  std::vector<int> point;            ///< of a, or its triangles; ascending
-  std::vector<HalfFloat> gap;        ///< um, when the list was made, towards zero; of points
-  std::vector<std::uint32_t> start;  ///< [n_point + 1] first entry of each point in `near`
-  TriangleList near;                 ///< of b, the closest first; bound: when the list was made
+  CandidateList list;
 };
 
 /// Body by its number: `bodies`, which probe, come first, then `fixed`, which are only probed.
@@ -60,7 +58,7 @@ void fill_candidates(std::span<const SurfaceBody> bodies, std::span<const Surfac
 /// @param moved  um, bound of the relative motion of the two bodies since the list was made; points
 ///     and triangles that cannot touch yet are skipped
 /// @return number of points examined
-std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
+std::size_t find_contacts(const Candidates& pair, std::span<const SurfaceBody> bodies,
                           std::span<const SurfaceBody> fixed, const SearchOptions& options,
                           double moved, Contacts& out);
 

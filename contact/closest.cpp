@@ -63,7 +63,7 @@ ACINUS_KERNEL void measure(const double* node, const Triangle* triangle, const d
 }
 
 /// Collector of pairs that measures them together and keeps the closest triangle of each point.
-/// @tparam List  ListedTriangles or TriangleList
+/// @tparam List  ListedTriangles or CandidateList
 template <class List>
 class Measurer {
  public:
@@ -198,7 +198,7 @@ void find_closest(const SurfaceBody& b, const ListedTriangles& candidates, doubl
   find_closest_of(b, candidates, shift, horizon, block, distance);
 }
 
-void find_closest(const SurfaceBody& b, const TriangleList& candidates, double shift,
+void find_closest(const SurfaceBody& b, const CandidateList& candidates, double shift,
                   double horizon, PointBlock& block) {
   find_closest_of(b, candidates, shift, horizon, block, {});
 }

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include "contact/candidate_list.hpp"
 #include "contact/surface.hpp"
-#include "contact/triangle_list.hpp"
 
 namespace acinus::contact {
 
@@ -51,7 +51,7 @@ struct ListedTriangles {
 ///     plus the shift; may be empty
 void find_closest(const SurfaceBody& b, const ListedTriangles& candidates, double shift,
                   double horizon, PointBlock& block, std::span<float> distance = {});
-void find_closest(const SurfaceBody& b, const TriangleList& candidates, double shift,
+void find_closest(const SurfaceBody& b, const CandidateList& candidates, double shift,
                   double horizon, PointBlock& block);
 
 enum class Place {

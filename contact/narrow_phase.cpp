@@ -7,14 +7,15 @@
 
 namespace acinus::contact {
 
-std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
+std::size_t find_contacts(const Candidates& pair, std::span<const SurfaceBody> bodies,
                           std::span<const SurfaceBody> fixed, const SearchOptions& o, double moved,
                           Contacts& out) {
-  const bool self = list.body_a == list.body_b;
-  const bool is_fixed = static_cast<std::size_t>(list.body_b) >= bodies.size();
-  const int partner = is_fixed ? list.body_b - static_cast<int>(bodies.size()) : list.body_b;
-  const SurfaceBody& a = body_at(bodies, fixed, list.body_a);
-  const SurfaceBody& b = body_at(bodies, fixed, list.body_b);
+  const CandidateList& list = pair.list;
+  const bool self = pair.body_a == pair.body_b;
+  const bool is_fixed = static_cast<std::size_t>(pair.body_b) >= bodies.size();
+  const int partner = is_fixed ? pair.body_b - static_cast<int>(bodies.size()) : pair.body_b;
+  const SurfaceBody& a = body_at(bodies, fixed, pair.body_a);
+  const SurfaceBody& b = body_at(bodies, fixed, pair.body_b);
   const double range = self ? o.self_range : o.range, depth = self ? 0 : o.max_depth;
   const double horizon = std::max(range, depth), shift = moved + kRounding;
   const int per_site = points_per_site(o.quadrature);
@@ -22,7 +23,7 @@ std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> b
   int point[PointBlock::kSize];
   std::size_t looked = 0;
   auto flush = [&] {
-    find_closest(b, list.near, shift, horizon, block);
+    find_closest(b, list, shift, horizon, block);
     // On a fixed body, which has no unknowns, the exact place: it may be far from its corners.
     compute_gaps(b, is_fixed ? Place::kExact : Place::kRounded, block);
     for (int i = 0; i < block.n; ++i) {
@@ -35,7 +36,7 @@ std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> b
       const Vec3 facing = site_normal(a, o.quadrature, site);
       if (!are_facing(facing, Vec3(block.outward[0][i], block.outward[1][i], block.outward[2][i])))
         continue;
-      out.push_back({.a = list.body_a,
+      out.push_back({.a = pair.body_a,
                      .point = point[i],
                      .b = partner,
                      .triangle = block.triangle[i],
@@ -48,15 +49,15 @@ std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> b
     block.n = 0;
   };
   block.n = 0;
-  for (std::size_t p = 0; p < list.point.size(); ++p) {
-    const double before = static_cast<double>(list.gap[p].value());
+  for (std::size_t p = 0; p < list.n_point(); ++p) {
+    const double before = static_cast<double>(list.gap_at(p));
     if (before - shift > range || -before - shift > depth) continue;
     const int n = block.n++;
-    const Vec3 x = point_position(a, point_stencil(a, o.quadrature, list.point[p]));
+    const Vec3 x = point_position(a, point_stencil(a, o.quadrature, list.point_at(p)));
     for (int m = 0; m < 3; ++m) block.x[3 * n + m] = x[m];
-    block.begin[n] = list.start[p];
-    block.end[n] = list.start[p + 1];
-    point[n] = list.point[p];
+    block.begin[n] = list.begin_of(p);
+    block.end[n] = list.end_of(p);
+    point[n] = list.point_at(p);
     if (block.n == PointBlock::kSize) flush();
   }
   flush();

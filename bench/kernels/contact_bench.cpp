@@ -27,14 +27,14 @@ using PointAndTriangle = std::array<Vec3, 4>;
 std::vector<PointAndTriangle> listed_pairs() {
   const dcm::ContactWorkspace& work = packed_clump(64).work.dcm;
   std::vector<PointAndTriangle> pair;
-  for (const contact::Candidates& list : work.lists.pair) {
-    const contact::SurfaceBody &a = work.body[list.body_a], &b = work.body[list.body_b];
-    for (std::size_t k = 0; k < list.point.size(); ++k) {
+  for (const auto& [body_a, body_b, list] : work.lists.pair) {
+    const contact::SurfaceBody &a = work.body[body_a], &b = work.body[body_b];
+    for (std::size_t k = 0; k < list.n_point(); ++k) {
       const Vec3 p =
-          point_position(a, point_stencil(a, contact::Quadrature::kThreePoint, list.point[k]));
-      for (std::size_t c = list.start[k]; c < list.start[k + 1]; ++c) {
+          point_position(a, point_stencil(a, contact::Quadrature::kThreePoint, list.point_at(k)));
+      for (std::size_t c = list.begin_of(k); c < list.end_of(k); ++c) {
         if (pair.size() == kPairs) return pair;
-        const auto [i, j, m] = (*b.triangle)[list.near.triangle_at(c)];
+        const auto [i, j, m] = (*b.triangle)[list.triangle_at(c)];
         pair.push_back({p, b.node[i], b.node[j], b.node[m]});
       }
     }

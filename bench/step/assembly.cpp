@@ -93,8 +93,8 @@ BenchRow measure_parts(int count, const std::string& quadrature) {
   });
   double listed_points = 0, listed_triangles = 0;
   for (const contact::Candidates& c : w.dcm.lists.pair) {
-    listed_points += static_cast<double>(c.point.size());
-    listed_triangles += static_cast<double>(c.near.size());
+    listed_points += static_cast<double>(c.list.n_point());
+    listed_triangles += static_cast<double>(c.list.n_triangle());
   }
   w.system.links.clear();
   w.op.prepare(w.system);

@@ -21,6 +21,16 @@ void make_room(V& v, std::size_t n) {
   v.reserve(all + std::max(all / 16, kLeastRoom));
 }
 
+/// Empties an array that is to be filled with about as many elements again. Where a thirty-second
+/// more would not fit, it gets more memory while it is empty: a full array that grows is there
+/// twice.
+template <class V>
+void clear_to_refill(V& v) {
+  const std::size_t n = v.size();
+  v.clear();
+  make_room(v, n + n / 32);
+}
+
 /// Resizes v to n elements with this growth of the capacity.
 template <class V>
 void set_size(V& v, std::size_t n) {

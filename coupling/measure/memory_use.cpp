@@ -46,12 +46,10 @@ std::size_t measure_bodies(const dcm::ContactWorkspace& w) {
 
 std::size_t measure_lists(const dcm::ContactLists& lists) {
   std::size_t bytes = memory_of(lists.body) + memory_of(lists.pair) + memory_of(lists.age);
-  for (const contact::Candidates& c : lists.pair)
-    bytes += memory_of(c.point) + memory_of(c.gap) + memory_of(c.start) + c.near.memory();
+  for (const contact::Candidates& c : lists.pair) bytes += c.list.memory();
   for (const dcm::SegmentCandidates& c : lists.segment)
     bytes += sizeof c + memory_of(c.site) + memory_of(c.start) + memory_of(c.segment);
-  for (const dcm::ListedBody& b : lists.body)
-    for (const dcm::ListSnapshot& s : b.snapshot) bytes += sizeof s + memory_of(s.node);
+  for (const dcm::ListedBody& b : lists.body) bytes += memory_of(b.latest.node) + memory_of(b.time);
   return bytes;
 }
 

@@ -58,13 +58,14 @@ void find_point_contacts(const ContactInput& in, const contact::SearchOptions& o
                          ContactWorkspace& work, contact::Contacts& all) {
   const std::vector<contact::Candidates>& pair = work.lists.pair;
   std::atomic<std::int64_t> listed = 0, seen = 0;
-  all.clear();
+  clear_to_refill(all);
   append_in_order(
       pair.size(), worth_threads(in.state.n_row()), all,
       [&](std::size_t k, contact::Contacts& found) {
-        if (pair[k].point.empty()) return;
-        make_room(found, pair[k].point.size());
-        listed += static_cast<std::int64_t>(pair[k].point.size());
+        const std::size_t n = pair[k].list.n_point();
+        if (n == 0) return;
+        make_room(found, n);
+        listed += static_cast<std::int64_t>(n);
         seen += static_cast<std::int64_t>(contact::find_contacts(
             pair[k], work.body, work.fixed, options, relative_motion(work.lists, k), found));
       });

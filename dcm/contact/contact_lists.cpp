@@ -67,12 +67,12 @@ std::vector<int> match_bodies(const ListInput& in, const ContactLists& lists) {
   return was;
 }
 
-/// Counts the lists of every snapshot.
+/// Counts the lists of every time.
 void count_lists(ContactLists& lists) {
   for (ListedBody& b : lists.body)
-    for (ListSnapshot& s : b.snapshot) s.lists = 0;
-  const auto count = [&](int body, int snapshot) {
-    if (snapshot >= 0) ++lists.body[body].snapshot[snapshot].lists;
+    for (ListTime& t : b.time) t.lists = 0;
+  const auto count = [&](int body, int time) {
+    if (time >= 0) ++lists.body[body].time[time].lists;
   };
   for (std::size_t k = 0; k < lists.pair.size(); ++k) {
     count(lists.pair[k].body_a, lists.age[k].a);
@@ -136,21 +136,20 @@ void renew_pairs(const ListInput& in, ContactLists& lists) {
   count_lists(lists);
 }
 
-void compute_motion(const contact::SurfaceBody& now, ListSnapshot& s) {
-  const std::size_t n = s.node.size();
+NodeMotion compute_motion(const ListedNodes& from, const contact::SurfaceBody& now) {
+  const std::size_t n = from.node.size();
   const auto moved = [&](std::size_t i) -> Vec3 {
-    const auto& [x, y, z] = s.node[i];
-    return (now.node[i] - s.origin) - s.unit * Vec3(x, y, z);
+    const auto& [x, y, z] = from.node[i];
+    return (now.node[i] - from.origin) - from.unit * Vec3(x, y, z);
   };
-  s.mean = Vec3::Zero();
-  for (std::size_t i = 0; i < n; ++i) s.mean += moved(i);
-  s.mean /= static_cast<double>(n);
+  Vec3 mean = Vec3::Zero();
+  for (std::size_t i = 0; i < n; ++i) mean += moved(i);
+  mean /= static_cast<double>(n);
   double spread2 = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    spread2 = std::max(spread2, (moved(i) - s.mean).squaredNorm());
+  for (std::size_t i = 0; i < n; ++i) spread2 = std::max(spread2, (moved(i) - mean).squaredNorm());
   // Every place is wrong by up to half a diagonal of its unit, and so is the mean of all: thrice
   // that in the deviation and the mean.
-  s.spread = std::sqrt(spread2) + 1.5 * std::sqrt(3.0) * s.unit;
+  return {mean, std::sqrt(spread2) + 1.5 * std::sqrt(3.0) * from.unit};
 }
 
 /// True if the network moved farther than the lists of segments allow. The present network then
@@ -162,36 +161,45 @@ bool network_moved(const ListInput& in, double most, ContactLists& lists) {
   return true;
 }
 
-const ListSnapshot* snapshot_of(const ContactLists& lists, int body, int snapshot) {
-  if (snapshot < 0) return nullptr;
-  return &lists.body[body].snapshot[snapshot];
+/// Motion of a body since one of its times.
+NodeMotion motion_since(const ListedBody& body, int time) {
+  return body.time[static_cast<std::size_t>(time)].motion + body.motion;
 }
 
-/// Allocates a snapshot slot for a body.
-int allocate_snapshot(ListedBody& body) {
+/// Allocates a slot for a time of a body.
+int allocate_time(ListedBody& body) {
   std::size_t place = 0;
-  while (place < body.snapshot.size() && body.snapshot[place].lists > 0) ++place;
-  if (place == body.snapshot.size()) body.snapshot.emplace_back();
-  body.snapshot[place].lists = 1;
+  while (place < body.time.size() && body.time[place].lists > 0) ++place;
+  if (place == body.time.size()) body.time.emplace_back();
+  body.time[place].lists = 1;
   return static_cast<int>(place);
 }
 
-void take_snapshot(const contact::SurfaceBody& now, ListSnapshot& s) {
-  s.origin = 0.5 * (now.box.low + now.box.high);
+ListedNodes round_nodes(const contact::SurfaceBody& now, ListedNodes memory) {
+  ListedNodes nodes = std::move(memory);
+  nodes.origin = 0.5 * (now.box.low + now.box.high);
   constexpr double kSteps = 32767;
-  s.unit = 0.5 * (now.box.high - now.box.low).maxCoeff() / kSteps;
-  const double per_unit = s.unit > 0 ? 1 / s.unit : 0;
+  nodes.unit = 0.5 * (now.box.high - now.box.low).maxCoeff() / kSteps;
+  const double per_unit = nodes.unit > 0 ? 1 / nodes.unit : 0;
   const auto steps = [&](double x) {  // to the nearest: conversion cuts off
     return static_cast<std::int16_t>(static_cast<int>(x * per_unit + kSteps + 1.5) -
                                      static_cast<int>(kSteps + 1));
   };
-  s.node.resize(now.node.size());
-  for (std::size_t i = 0; i < s.node.size(); ++i) {
-    const Vec3 x = now.node[i] - s.origin;
-    s.node[i] = {steps(x[0]), steps(x[1]), steps(x[2])};
+  nodes.node.resize(now.node.size());
+  for (std::size_t i = 0; i < nodes.node.size(); ++i) {
+    const Vec3 x = now.node[i] - nodes.origin;
+    nodes.node[i] = {steps(x[0]), steps(x[1]), steps(x[2])};
   }
-  s.mean = Vec3::Zero();
-  s.spread = 0;
+  return nodes;
+}
+
+/// Makes the present time the latest of a body: that of the slot. Motions since earlier times are
+/// sums of motions, of which the spreads are bounds too.
+void begin_time(const contact::SurfaceBody& now, int slot, ListedBody& body) {
+  for (ListTime& t : body.time) t.motion = t.motion + body.motion;
+  body.time[static_cast<std::size_t>(slot)].motion = {};
+  body.latest = round_nodes(now, std::move(body.latest));
+  body.motion = {};
 }
 
 /// Search for the segments within reach of every site of a body.
@@ -231,11 +239,12 @@ void find_segments(const contact::SurfaceBody& b, const contact::SearchOptions& 
 
 double relative_motion(const ContactLists& lists, std::size_t pair) {
   const contact::Candidates& list = lists.pair[pair];
-  const ListSnapshot* a = snapshot_of(lists, list.body_a, lists.age[pair].a);
-  const ListSnapshot* b = snapshot_of(lists, list.body_b, lists.age[pair].b);
-  if (b == nullptr) return a->spread + a->mean.norm();  // a static mesh
-  if (a == b) return 2 * a->spread;
-  return a->spread + b->spread + (a->mean - b->mean).norm();
+  const ListAge& age = lists.age[pair];
+  const NodeMotion a = motion_since(lists.body[list.body_a], age.a);
+  if (age.b < 0) return a.spread + a.mean.norm();  // a static mesh
+  if (list.body_a == list.body_b) return 2 * a.spread;
+  const NodeMotion b = motion_since(lists.body[list.body_b], age.b);
+  return a.spread + b.spread + (a.mean - b.mean).norm();
 }
 
 void refresh_pairs(const ListInput& in, ContactLists& lists) {
@@ -265,9 +274,11 @@ void find_expired(const ListInput& in, ContactLists& lists) {
   for (std::size_t k = 0; k < in.body.size(); ++k) {
     if (is_constrained(in, k) || is_ghost(in, k)) continue;
     const ListAge& age = lists.segment_age[k];
-    const ListSnapshot* s = snapshot_of(lists, static_cast<int>(k), age.a);
-    if (moved || s == nullptr || s->spread + s->mean.norm() + range - age.range > allowed)
-      scratch.segments_expired.push_back(k);
+    const auto holds = [&] {
+      const NodeMotion motion = motion_since(lists.body[k], age.a);
+      return motion.spread + motion.mean.norm() + range - age.range <= allowed;
+    };
+    if (moved || !age.made() || !holds()) scratch.segments_expired.push_back(k);
   }
 }
 
@@ -278,8 +289,9 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
   const bool shared =
       n_body > 0 && worth_threads(n_body * in.body[0].node.size() / std::size_t{kLanes});
   for_each_index(n_body, shared, [&](std::size_t k) {
-    for (ListSnapshot& s : lists.body[k].snapshot)
-      if (s.lists > 0) compute_motion(in.body[k], s);
+    ListedBody& b = lists.body[k];
+    if (std::ranges::any_of(b.time, [](const ListTime& t) { return t.lists > 0; }))
+      b.motion = compute_motion(b.latest, in.body[k]);
   });
   find_expired(in, lists);
   ListScratch& scratch = lists.scratch;
@@ -289,23 +301,23 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
   if (expired.empty() && segments.empty()) return;
 
   const double range = in.options.range;
-  std::vector<int>& latest = scratch.latest;
-  latest.assign(n_body, -1);
-  const auto snapshot_now = [&](std::size_t body) {
+  std::vector<int>& now = scratch.now;
+  now.assign(n_body, -1);
+  const auto time_of = [&](std::size_t body) {
     if (body >= n_body) return -1;
-    if (latest[body] < 0) latest[body] = allocate_snapshot(lists.body[body]);
-    return latest[body];
+    if (now[body] < 0) now[body] = allocate_time(lists.body[body]);
+    return now[body];
   };
   scratch.to_fill.clear();
   for (const std::size_t k : expired) {
     contact::Candidates& list = lists.pair[k];
-    const int a = snapshot_now(list.body_a), b = snapshot_now(list.body_b);
+    const int a = time_of(list.body_a), b = time_of(list.body_b);
     lists.age[k] = {a, b, range};
     scratch.to_fill.push_back(&list);
   }
-  for (const std::size_t k : segments) lists.segment_age[k] = {snapshot_now(k), -1, range};
+  for (const std::size_t k : segments) lists.segment_age[k] = {time_of(k), -1, range};
   for_each_index(n_body, shared, [&](std::size_t k) {
-    if (latest[k] >= 0) take_snapshot(in.body[k], lists.body[k].snapshot[latest[k]]);
+    if (now[k] >= 0) begin_time(in.body[k], now[k], lists.body[k]);
   });
   count_lists(lists);
   contact::fill_candidates(in.body, in.fixed, in.options, scratch.to_fill);

@@ -22,15 +22,27 @@ struct SegmentCandidates {
   std::vector<int> segment;
 };
 
-/// Nodes of a body when lists with it were made, and their motion since then.
-struct ListSnapshot {
+/// Motion of the nodes of a body.
+struct NodeMotion {
+  Vec3 mean = Vec3::Zero();  ///< um
+  double spread = 0;         ///< um, bound of the deviation of a node's motion from the mean
+
+  NodeMotion operator+(const NodeMotion& then) const {
+    return {mean + then.mean, spread + then.spread};
+  }
+};
+
+/// Nodes of a body at one time.
+struct ListedNodes {
   std::vector<std::array<std::int16_t, 3>> node;  ///< from the origin, in units of `unit`
   Vec3 origin = Vec3::Zero();                     ///< um
   double unit = 0;                                ///< um
-  Vec3 mean = Vec3::Zero();                       ///< um, mean motion since then
-  /// um, bound of the deviation of a node's motion from the mean; allows for the rounding of nodes
-  double spread = 0;
-  int lists = 0;  ///< number of lists made then; 0: free slot
+};
+
+/// Time at which lists with a body were made.
+struct ListTime {
+  NodeMotion motion;  ///< from then to the latest such time of the body
+  int lists = 0;      ///< number of lists made then; 0: free slot
 };
 
 /// Body as the lists keep it. Cells are identified by lineage when their numbers change.
@@ -38,11 +50,13 @@ struct ListedBody {
   std::int64_t lineage = -1;
   const geometry::Topology* topology = nullptr;
   bool constrained = false, ghost = false;
-  Box box;  ///< at the last search for pairs
-  std::vector<ListSnapshot> snapshot;
+  Box box;                     ///< at the last search for pairs
+  ListedNodes latest;          ///< at the latest of the times
+  NodeMotion motion;           ///< since then; allows for the rounding of the nodes
+  std::vector<ListTime> time;  ///< at which its lists were made
 };
 
-/// Age of a list: the snapshots of its bodies when it was made (-1: body without one), and the
+/// Age of a list: the times of its bodies at which it was made (-1: body without one), and the
 /// range.
 struct ListAge {
   int a = -1, b = -1;
@@ -54,7 +68,7 @@ struct ListAge {
 struct ListScratch {
   std::vector<std::uint8_t> is_expired;  ///< [pair]
   std::vector<std::size_t> expired, segments_expired;
-  std::vector<int> latest;  ///< [body] snapshot of the present time, -1: none
+  std::vector<int> now;  ///< [body] the present time among its times, -1: none
   std::vector<contact::Candidates*> to_fill;
 };
 

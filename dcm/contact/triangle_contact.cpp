@@ -96,12 +96,12 @@ struct BodyPair {
   const ContactInput& in;
   const ContactWorkspace& work;
   contact::MaugisLaw law;
-  const contact::Candidates& list;
+  const contact::Candidates& pair;
   double reach;  ///< um
 
-  bool is_fixed() const { return static_cast<std::size_t>(list.body_b) >= work.body.size(); }
+  bool is_fixed() const { return static_cast<std::size_t>(pair.body_b) >= work.body.size(); }
   const std::vector<CurvedTriangle>& curved_b() const {
-    const std::size_t k = list.body_b;
+    const std::size_t k = pair.body_b;
     return is_fixed() ? work.triangles.fixed[k - work.body.size()] : work.triangles.curved[k];
   }
 
@@ -110,19 +110,19 @@ struct BodyPair {
     contact::MaugisLaw at = law;
     const contact::Vessels& v = in.boundary.vessels;
     const std::size_t first = work.body.size() + in.boundary.meshes.size();
-    if (v.wall == nullptr || static_cast<std::size_t>(list.body_b) < first) return at;
+    if (v.wall == nullptr || static_cast<std::size_t>(pair.body_b) < first) return at;
     const auto& radius = v.network.radius[v.wall->segment[triangle]];
     at.most_yield = wall_yield(in.options, v.material, 0.5 * (radius[0] + radius[1]));
     return at;
   }
 
   void find(contact::Contacts& out) const {
-    const std::vector<CurvedTriangle>&a = work.triangles.curved[list.body_a], &b = curved_b();
+    const std::vector<CurvedTriangle>&a = work.triangles.curved[pair.body_a], &b = curved_b();
     const contact::CapOf side = is_fixed() ? contact::CapOf::kObjectMesh : contact::CapOf::kCell;
-    for (std::size_t n = 0; n < list.point.size(); ++n) {
-      const CurvedTriangle& at_a = a[list.point[n]];
-      for (std::uint32_t e = list.start[n]; e < list.start[n + 1]; ++e) {
-        const int t = list.near.triangle_at(e);
+    for (std::size_t n = 0; n < pair.list.n_point(); ++n) {
+      const CurvedTriangle& at_a = a[pair.list.point_at(n)];
+      for (std::uint32_t e = pair.list.begin_of(n); e < pair.list.end_of(n); ++e) {
+        const int t = pair.list.triangle_at(e);
         const CurvedTriangle& at_b = b[t];
         const double near = at_a.circumradius + at_b.circumradius + reach;
         if ((at_a.circumcenter - at_b.circumcenter).squaredNorm() > near * near) continue;
@@ -131,7 +131,7 @@ struct BodyPair {
         for (const contact::TrianglePart* part : {&k.push, &k.pull})
           if (part->area > 0)
             for (const std::array<double, 3>& place : spread(at_a, *part))
-              out.push_back(record(list.point[n], t, k.normal, *part, place));
+              out.push_back(record(pair.list.point_at(n), t, k.normal, *part, place));
       }
     }
   }
@@ -139,9 +139,9 @@ struct BodyPair {
   Contact record(int s, int t, const Vec3& normal_a_to_b, const contact::TrianglePart& part,
                  const std::array<double, 3>& place) const {
     Contact k;
-    k.a = list.body_a;
+    k.a = pair.body_a;
     k.point = s;
-    k.b = is_fixed() ? list.body_b - static_cast<int>(work.body.size()) : list.body_b;
+    k.b = is_fixed() ? pair.body_b - static_cast<int>(work.body.size()) : pair.body_b;
     k.triangle = t;
     k.partner = is_fixed() ? contact::Partner::kMesh : contact::Partner::kSurface;
     k.normal = -normal_a_to_b;
@@ -252,16 +252,16 @@ void find_triangle_contacts(const ContactInput& in, ContactWorkspace& work, doub
   for (std::vector<CurvedTriangle>& t : scratch.curved) t.clear();
   refresh_curved_triangles(work);
 
-  const std::vector<contact::Candidates>& pair = work.lists.pair;
-  out.clear();
-  append_in_order(pair.size(), true, out, [&](std::size_t k, contact::Contacts& found) {
-    const contact::Candidates& list = pair[k];
-    if (list.point.empty()) return;
-    if (list.body_a == list.body_b)
-      contact::find_contacts(list, work.body, work.fixed, work.lists.options,
+  const std::vector<contact::Candidates>& pairs = work.lists.pair;
+  clear_to_refill(out);
+  append_in_order(pairs.size(), true, out, [&](std::size_t k, contact::Contacts& found) {
+    const contact::Candidates& pair = pairs[k];
+    if (pair.list.empty()) return;
+    if (pair.body_a == pair.body_b)
+      contact::find_contacts(pair, work.body, work.fixed, work.lists.options,
                              relative_motion(work.lists, k), found);
     else
-      BodyPair{in, work, law_between(in, work, list.body_a, list.body_b, reach), list, reach}.find(
+      BodyPair{in, work, law_between(in, work, pair.body_a, pair.body_b, reach), pair, reach}.find(
           found);
   });
 }

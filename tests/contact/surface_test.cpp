@@ -200,20 +200,19 @@ TEST(FindCandidates, HoldEveryTriangleThatMayBecomeTheClosest) {
     for (const Candidates& c : find_candidates(bodies, {}, o)) {
       const SurfaceBody& a = bodies[c.body_a];
       const SurfaceBody& b = bodies[c.body_b];
-      ASSERT_EQ(c.start.size(), c.point.size() + 1);
-      ASSERT_EQ(c.near.size(), c.start.back());
-      EXPECT_TRUE(std::ranges::is_sorted(c.point));
-      for (std::size_t p = 0; p < c.point.size(); ++p) {
-        const Vec3 x = point_position(a, point_stencil(a, q, c.point[p]));
+      const CandidateList& list = c.list;
+      for (std::size_t p = 0; p < list.n_point(); ++p) {
+        EXPECT_TRUE(p == 0 || list.point_at(p - 1) < list.point_at(p));
+        const Vec3 x = point_position(a, point_stencil(a, q, list.point_at(p)));
         const double gap = reference::plain_signed_distance(x, b.node, *b.triangle);
-        EXPECT_NEAR(static_cast<double>(c.gap[p].value()), gap, std::abs(gap) / 128 + 1e-6);
-        EXPECT_LE(std::abs(static_cast<double>(c.gap[p].value())), std::abs(gap) + 1e-6);
+        EXPECT_NEAR(static_cast<double>(list.gap_at(p)), gap, std::abs(gap) / 128 + 1e-6);
+        EXPECT_LE(std::abs(static_cast<double>(list.gap_at(p))), std::abs(gap) + 1e-6);
         std::vector<double> listed(b.triangle->size(), -1);
-        for (std::uint32_t k = c.start[p]; k < c.start[p + 1]; ++k) {
-          EXPECT_GE(c.near.bound_at(k), c.near.bound_at(c.start[p]));
-          listed[c.near.triangle_at(k)] = static_cast<double>(c.near.bound_at(k));
+        for (std::uint32_t k = list.begin_of(p); k < list.end_of(p); ++k) {
+          EXPECT_GE(list.bound_at(k), list.bound_at(list.begin_of(p)));
+          listed[list.triangle_at(k)] = static_cast<double>(list.bound_at(k));
         }
-        EXPECT_NEAR(static_cast<double>(c.near.bound_at(c.start[p])), std::abs(gap),
+        EXPECT_NEAR(static_cast<double>(list.bound_at(list.begin_of(p))), std::abs(gap),
                     std::abs(gap) / 128 + 1e-6);
         for (std::size_t t = 0; t < listed.size(); ++t) {
           const auto& corner = (*b.triangle)[t];

@@ -35,5 +35,22 @@ TEST(MakeRoom, AnArrayThatDoublesMovesTwelveTimes) {
             13);
 }
 
+// A full array that grows is there twice, so it gets its memory while it is empty.
+TEST(MakeRoom, AnArrayThatIsRefilledDoesNotMoveForAFewMore) {
+  std::vector<double> v(1000);
+  for (int round = 0; round < 30; ++round) {
+    const std::size_t n = v.size();
+    clear_to_refill(v);
+    EXPECT_TRUE(v.empty());
+    const double* const before = v.data();
+    for (std::size_t k = 0; k < n + n / 40; ++k) {
+      make_room(v, 1);
+      v.push_back(1);
+    }
+    EXPECT_EQ(v.data(), before);
+    EXPECT_LE(v.capacity(), v.size() + v.size() / 8);
+  }
+}
+
 }  // namespace
 }  // namespace acinus
