@@ -302,7 +302,7 @@ void add_vessel_loads(const ContactInput& in, const contact::ContactList& contac
     // Spheres may overlap without limit: no depth is too large.
     solve::set_law(k.slope, k.friction, std::numeric_limits<double>::infinity(), k.normal,
                    links.link[l]);
-    links.law[l] = {0, 0, static_cast<std::uint32_t>(first + n)};
+    links.law[l] = {.contact = static_cast<std::uint32_t>(first + n)};
   }
 }
 

@@ -8,6 +8,11 @@
 
 namespace acinus::dcm {
 
+void drop_forgotten(double time, std::span<BirthShape> shapes) {
+  for (BirthShape& b : shapes)
+    if (b.is_forgotten(time)) b = {};
+}
+
 BirthShape make_birth_shape(const geometry::Topology& t, std::span<const Vec3> node, double radius,
                             double stretch, const Ramp& weight) {
   BirthShape shape;

@@ -28,6 +28,9 @@ struct BirthShape {
   bool is_forgotten(double time) const { return !(weight.at(time) > 0); }
 };
 
+/// Frees the shapes that are forgotten at a time.
+void drop_forgotten(double time, std::span<BirthShape> shapes);
+
 /// Birth shape of these nodes at rest, but for a stretch of the surface (area over its reference)
 /// that acts from the first moment on.
 /// @param radius  um, reference radius

@@ -8,10 +8,11 @@ namespace acinus::dcm {
 
 struct GroupView {
   const geometry::Topology* topology;
-  std::size_t index;                                  ///< group number
-  std::size_t first_row;                              ///< first point row in the global arrays
-  std::size_t first_spring, first_hinge, first_face;  ///< first elements in the global arrays
-  const double* position;                             ///< [n_node][3][lane] um
+  std::size_t index;      ///< group number
+  std::size_t first_row;  ///< first point row in the global arrays
+  /// First elements in the global arrays.
+  std::size_t first_spring, first_hinge, first_normal, first_face;
+  const double* position;  ///< [n_node][3][lane] um
   const double* radius;    ///< [lane] um, reference radius at the end of the step
   const double* area;      ///< [lane] reference surface over that of a sphere (BirthShape)
   const double* edge;      ///< [n_edge][lane] reference lengths, likewise; null: all 1

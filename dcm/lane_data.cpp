@@ -110,6 +110,7 @@ GroupView view_group(const State& state, const LaneData& lanes, const solve::Sys
           g.first_row,
           block.first_spring,
           block.first_hinge,
+          block.first_normal,
           block.first_face,
           state.position.data() + g.first_row * kPointStride,
           lanes.radius.data() + k * kLanes,
@@ -131,6 +132,7 @@ GroupView view_nuclei(const State& state, const LaneData& lanes, const solve::Sy
   view.first_row = g.first_nucleus_row();
   view.first_spring = block.first_spring + n_edge;
   view.first_hinge = block.first_hinge + n_edge;
+  view.first_normal = block.first_normal + static_cast<std::size_t>(g.topology->n_triangle);
   view.position = state.position.data() + view.first_row * kPointStride;
   view.radius = lanes.nucleus.radius.data() + k * kLanes;
   view.area = lanes.nucleus.unit.data() + k * kLanes;

@@ -43,13 +43,29 @@ struct PassPlan {
   const CoarseSpace* coarse = nullptr;
 };
 
+/// Vectors of one pass.
+template <class T>
+struct CgVectors {
+  std::span<T> correction, residual, direction, preconditioned, product;
+};
+
+/// Vectors of a pass in float, in memory of the operator.
+CgVectors<float> float_vectors(const Operator& op) {
+  const auto [correction, residual, direction, preconditioned, product] = op.float_vectors();
+  return {correction, residual, direction, preconditioned, product};
+}
+
+/// Vectors of a pass in double.
+CgVectors<double> double_vectors(std::size_t n, CgWorkspace& work) {
+  for (RowVector<double>& v : work.vector) set_size(v, n);
+  auto& [correction, residual, direction, preconditioned, product] = work.vector;
+  return {correction, residual, direction, preconditioned, product};
+}
+
 /// Iterates on A e = residual / size from e = 0 to the goal.
 template <class T>
 PassEnd run_pass(Operator& op, std::span<const double> residual, const PassPlan& plan,
-                 int& iterations, CgVectors<T>& v) {
-  const std::size_t n = residual.size();
-  for (auto* a : {&v.correction, &v.residual, &v.direction, &v.preconditioned, &v.product})
-    set_size(*a, n);
+                 int& iterations, const CgVectors<T>& v) {
   for_each_own_number(op.system(), [&](std::size_t k) {
     v.correction[k] = 0;
     v.residual[k] = static_cast<T>(residual[k] / plan.size);
@@ -80,31 +96,29 @@ PassEnd run_pass(Operator& op, std::span<const double> residual, const PassPlan&
 
 /// x += size * correction.
 template <class T>
-void add_correction(const System& s, double size, const RowVector<T>& correction,
+void add_correction(const System& s, double size, std::span<const T> correction,
                     std::span<double> x) {
   for_each_own_number(s, [&](std::size_t k) { x[k] += size * static_cast<double>(correction[k]); });
 }
 
-/// Computes the residual b - A x from the product A x, or from x if that is empty.
-void compute_residual(const CgProblem& problem, std::span<const double> x,
-                      std::span<const double> product, CgWorkspace& work) {
-  if (product.empty()) {
-    problem.op.apply<double>(x, work.product);
-    product = work.product;
-  }
+/// Computes the residual b - A x.
+void compute_residual(const CgProblem& problem, std::span<const double> x, CgWorkspace& work) {
+  set_size(work.product, problem.b.size());
+  problem.op.apply<double>(x, work.product);
   for_each_own_number(problem.op.system(),
-                      [&](std::size_t k) { work.residual[k] = problem.b[k] - product[k]; });
+                      [&](std::size_t k) { work.residual[k] = problem.b[k] - work.product[k]; });
 }
 
 /// Runs one pass in the given precision and adds its correction to x unless it broke down.
 PassEnd improve(Operator& op, bool in_float, const PassPlan& plan, CgWorkspace& work,
-                std::span<double> x, int& iterations) {
-  const auto run = [&](auto& vectors) {
-    const PassEnd end = run_pass(op, work.residual, plan, iterations, vectors);
-    if (end != PassEnd::kBrokeDown) add_correction(op.system(), plan.size, vectors.correction, x);
+                std::span<double> x, CgResult& result) {
+  const auto run = [&]<class T>(const CgVectors<T>& v) {
+    const PassEnd end = run_pass(op, work.residual, plan, result.iterations, v);
+    if (end != PassEnd::kBrokeDown) add_correction<T>(op.system(), plan.size, v.correction, x);
     return end;
   };
-  return in_float ? run(work.single) : run(work.full);
+  ++(in_float ? result.float_passes : result.double_passes);
+  return in_float ? run(float_vectors(op)) : run(double_vectors(x.size(), work));
 }
 
 CgResult fail(CgResult result, const char* why) {
@@ -121,7 +135,6 @@ CgResult solve_cg(const CgProblem& problem, std::span<double> x, const CgOptions
   const Operator& op = problem.op;
   set_size(work.residual, problem.b.size());
   for_each_own_number(op.system(), [&](std::size_t k) { work.residual[k] = problem.b[k]; });
-  set_size(work.product, problem.b.size());
   work.load = std::sqrt(op.precondition(work.residual, {}));
   CgResult result;
   if (!std::isfinite(work.load)) return fail(result, "the right-hand side is not finite");
@@ -129,7 +142,7 @@ CgResult solve_cg(const CgProblem& problem, std::span<double> x, const CgOptions
     for_each_own_number(op.system(), [&](std::size_t k) { x[k] = 0; });
     return result;
   }
-  compute_residual(problem, x, problem.product, work);
+  compute_residual(problem, x, work);
   return continue_cg(problem, x, options, work);
 }
 
@@ -141,7 +154,7 @@ CgResult continue_cg(const CgProblem& problem, std::span<double> x, const CgOpti
   bool stopped = false;
   double before = std::numeric_limits<double>::infinity();
   for (int pass = 0;; ++pass) {
-    if (pass > 0) compute_residual(problem, x, {}, work);
+    if (pass > 0) compute_residual(problem, x, work);
     const double rho = op.precondition(work.residual, {}), size = std::sqrt(rho);
     if (!is_size(rho)) return fail(result, kIndefinite);
     result.residual = size / work.load;
@@ -157,7 +170,7 @@ CgResult continue_cg(const CgProblem& problem, std::span<double> x, const CgOpti
     const PassPlan plan{
         size, mixed ? std::max(goal, kLargestFloatReduction) : goal, options.max_iterations,
         problem.expected_iterations < kPayingIterations ? kMergingIterations : 1, problem.coarse};
-    const PassEnd end = improve(op, mixed, plan, work, x, result.iterations);
+    const PassEnd end = improve(op, mixed, plan, work, x, result);
     if (end == PassEnd::kAskedToStop) return fail(result, "asked to stop");
     stopped = end == PassEnd::kOutOfIterations;
     if (end != PassEnd::kBrokeDown) continue;

@@ -2,6 +2,7 @@
 /// Preconditioned conjugate gradients, iterated in float and checked in double. The preconditioner
 /// is block-diagonal, with a coarse space if wanted.
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -26,34 +27,22 @@ struct CgOptions {
 struct CgResult {
   Status status;
   int iterations = 0;
+  int float_passes = 0, double_passes = 0;
   double residual = 0;  ///< relative, in the norm above, from the true residual b - A x in double
-};
-
-/// Vectors of one pass.
-template <class T>
-struct CgVectors {
-  RowVector<T> correction, residual, direction, preconditioned, product;
-
-  template <class F>
-  void for_each_row_array(const F& f) {
-    for (auto* v : {&correction, &residual, &direction, &preconditioned, &product}) f(*v);
-  }
 };
 
 /// Scratch, sized on first use.
 struct CgWorkspace {
-  RowVector<double> residual;  ///< b - A x of the solution returned
-  double load = 0;             ///< sqrt(b^T M^-1 b) of the last call of solve_cg
-  RowVector<double> product;   ///< scratch; free for other use between solves
-  CgVectors<float> single;
-  CgVectors<double> full;
+  RowVector<double> residual;               ///< b - A x of the solution returned
+  double load = 0;                          ///< sqrt(b^T M^-1 b) of the last call of solve_cg
+  RowVector<double> product;                ///< scratch; free for other use between solves
+  std::array<RowVector<double>, 5> vector;  ///< of passes in double
 
   template <class F>
   void for_each_row_array(const F& f) {
     f(residual);
     f(product);
-    single.for_each_row_array(f);
-    full.for_each_row_array(f);
+    for (RowVector<double>& v : vector) f(v);
   }
 };
 
@@ -64,7 +53,6 @@ struct CgProblem {
   /// Second part of the preconditioner, prepared for op; null: diagonal blocks alone. The tolerance
   /// is in the norm of the diagonal blocks either way.
   const CoarseSpace* coarse = nullptr;
-  std::span<const double> product = {};  ///< A x of the start value if known, not in the workspace
   int expected_iterations = 0;  ///< from a similar solve; 0: unknown. Changes rounding only
 };
 
@@ -77,10 +65,10 @@ struct CgProblem {
 CgResult solve_cg(const CgProblem& problem, std::span<double> x, const CgOptions& options,
                   CgWorkspace& work);
 
-/// Solves a system that changed a little since solve_cg, with the preconditioner that op has now
-/// and the coarse space of before. The tolerance is relative to the right-hand side of before.
-/// @param problem  without product
-/// @pre work.residual is b - A x of the changed system, and work.load is not 0
+/// Solves from a known residual, with a known norm that the tolerance is relative to: a system that
+/// changed a little since solve_cg, with the preconditioner that op has now and the coarse space of
+/// before, or one whose first residual is known.
+/// @pre work.residual is b - A x, and work.load is not 0
 CgResult continue_cg(const CgProblem& problem, std::span<double> x, const CgOptions& options,
                      CgWorkspace& work);
 

@@ -17,12 +17,27 @@ ACINUS_INLINE Lane3Of<T> sym_times(const float* d, const Lane3Of<T>& v) {
           xz * v.x + yz * v.y + load<T>(d + 5 * kLanes) * v.z};
 }
 
+/// Vectors g of a hinge on its wings and on the first point of its spring.
+template <class T>
+struct HingeVectors {
+  Lane3Of<T> wing0, wing1, end;
+};
+template <class T>
+ACINUS_INLINE HingeVectors<T> load_hinge(const BlockView& b, std::size_t hinge) {
+  const float* const h = b.hinge + hinge * kHingeStride;
+  const auto normal = [&](std::size_t side) __attribute__((always_inline)) {
+    return load3<T>(b.normal + b.pattern->flank[hinge][side] * kNormalStride);
+  };
+  const Lane3Of<T> n1 = normal(0), n2 = normal(1);
+  return {load<T>(h) * n1, load<T>(h + kLanes) * n2,
+          load<T>(h + 2 * kLanes) * n1 + load<T>(h + 3 * kLanes) * n2};
+}
+
 /// Product with springs and the hinge about each, in one sweep: they share two of their points.
 template <class T, bool kHinges, bool kMerged>
 ACINUS_INLINE void add_edges(const BlockView& b, const T* x, T* y) {
   const auto& spring = b.pattern->spring;
   const float* e = kMerged ? b.edge : b.spring;
-  const float* h = b.hinge;
   for (std::size_t k = 0; k < spring.size(); ++k) {
     const int i = spring[k][0] * kPointStride, j = spring[k][1] * kPointStride;
     const Lane3Of<T> xj = load3<T>(x + j);
@@ -39,8 +54,7 @@ ACINUS_INLINE void add_edges(const BlockView& b, const T* x, T* y) {
     }
     if constexpr (kHinges) {
       const int p = b.pattern->wing[k][0] * kPointStride, q = b.pattern->wing[k][1] * kPointStride;
-      const Lane3Of<T> g1 = load3<T>(h), g2 = load3<T>(h + 3 * kLanes),
-                       g3 = load3<T>(h + 6 * kLanes);
+      const auto [g1, g2, g3] = load_hinge<T>(b, k);
       const LaneOf<T> s =
           dot(g1, load3<T>(x + p) - xj) + dot(g2, load3<T>(x + q) - xj) - dot(g3, r);
       const Lane3Of<T> f1 = s * g1, f2 = s * g2, f3 = s * g3;
@@ -48,7 +62,6 @@ ACINUS_INLINE void add_edges(const BlockView& b, const T* x, T* y) {
       add3(y + q, f2);
       add3(y + i, f3 - f);
       add3(y + j, f - (f1 + f2 + f3));
-      h += kHingeStride;
     } else {
       add3(y + j, f);
       add3(y + i, -f);
@@ -202,6 +215,7 @@ BlockView view_block(const System& s, std::size_t b, const float* edge) {
                  s.spring.data() + block.first_spring * kSpringStride,
                  edge ? edge + block.first_spring * kEdgeStride : nullptr,
                  s.hinge.data() + block.first_hinge * kHingeStride,
+                 s.normal.data() + block.first_normal * kNormalStride,
                  s.face.data() + block.first_face * kFaceStride,
                  s.beam.data() + block.first_beam * kBeamStride,
                  s.friction_scale,
@@ -266,14 +280,12 @@ ACINUS_KERNEL void add_diagonal(const BlockView& b, double* d) {
     e += kSpringStride;
   }
   const Lane one = lane_of(1);
-  e = b.hinge;
   for (std::size_t k = 0; k < pattern.wing.size(); ++k) {
-    const Lane3 g1 = load3(e), g2 = load3(e + 3 * kLanes), g3 = load3(e + 6 * kLanes);
+    const auto [g1, g2, g3] = load_hinge<double>(b, k);
     add_outer_sym(d + pattern.wing[k][0] * kSymStride, one, g1);
     add_outer_sym(d + pattern.wing[k][1] * kSymStride, one, g2);
     add_outer_sym(d + pattern.spring[k][0] * kSymStride, one, g3);
     add_outer_sym(d + pattern.spring[k][1] * kSymStride, one, g1 + g2 + g3);
-    e += kHingeStride;
   }
   e = b.face;
   for (const auto& f : pattern.face) {
@@ -307,7 +319,7 @@ ACINUS_KERNEL void invert_blocks(int n_point, const double* d, float* out) {
   }
 }
 
-ACINUS_KERNEL void invert_rank_one(const InverseView& known, const double* vector,
+ACINUS_KERNEL void invert_rank_one(const InverseView& known, const float* vector,
                                    const double* coefficient, float* u) {
   Lane along[kMaxFamilies] = {};
   for (int i = 0; i < known.n_point; ++i)

@@ -17,13 +17,14 @@ struct BlockView {
   const float* spring;
   const float* edge;  ///< springs with merged contacts; null: use spring, contacts are apart
   const float* hinge;
+  const float* normal;  ///< of faces, for the hinges
   const float* face;
   const float* beam;
   double friction_scale;
   double dashpot;         ///< nN s/um
   double dashpot_across;  ///< ratio to that along the spring
   std::size_t n_family = 0;
-  std::array<const double*, kMaxFamilies> vector{};       ///< [n_point][3][lane]
+  std::array<const float*, kMaxFamilies> vector{};        ///< [n_point][3][lane]
   std::array<const double*, kMaxFamilies> coefficient{};  ///< [lane]
 };
 /// View of one block of a system. @param edge  of MergedLinks, or null
@@ -57,7 +58,7 @@ struct InverseView {
 /// sqrt(c / (1 + c w . v)) w with w = M^-1 v, here kRegularise less, so that the inverse stays
 /// positive definite when u is rounded to float.
 /// @param known  M^-1, with the families so far
-void invert_rank_one(const InverseView& known, const double* vector, const double* coefficient,
+void invert_rank_one(const InverseView& known, const float* vector, const double* coefficient,
                      float* u);
 
 /// Relative stiffening of blocks before their inversion, in parts of the trace: the inverse stays

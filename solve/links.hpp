@@ -58,12 +58,25 @@ inline void set_law(double stiffness, double friction, double gap, const Vec3& n
   link.gap = static_cast<float>(gap);
 }
 
-/// Origin of a link: the contact that has its force and exact normal, and its law when closed.
+/// Law of the closed gap of a contact, force = -stiffness * clearance.
+struct ClosedLaw {
+  double stiffness = 0;  ///< nN/um; 0: no such law
+  double clearance = 0;  ///< um, distance to this branch; not positive: the contact is on it
+};
+
+/// Origin of a link: the contact that has its force and exact normal, and its law when closed,
+/// rounded to the precision of links.
 struct LinkLaw {
-  /// Slope of the law of the closed gap, force = -closed_stiffness * gap; nN/um. 0: no such law.
-  double closed_stiffness = 0;
-  double clearance = 0;       ///< um, distance to that branch; not positive: the contact is on it
-  std::uint32_t contact = 0;  ///< its index in the list of contacts
+  float stiffness = 0, clearance = 0;  ///< of closed()
+  std::uint32_t contact = 0;           ///< its index in the list of contacts
+
+  ClosedLaw closed() const {
+    return {static_cast<double>(stiffness), static_cast<double>(clearance)};
+  }
+  void close(const ClosedLaw& law) {
+    stiffness = static_cast<float>(law.stiffness);
+    clearance = static_cast<float>(law.clearance);
+  }
 };
 
 /// Force of a link on its side a, nN, by the index of the link.

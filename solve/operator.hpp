@@ -2,6 +2,7 @@
 /// Matrix of a System as an operator, with its preconditioner: 3x3 diagonal blocks, and the
 /// rank-one terms (volume and area of a cell) whole.
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <type_traits>
@@ -48,6 +49,10 @@ class Operator {
   /// Brings products and diagonal blocks of the preconditioner up to date after changes of the
   /// stiffness of few links. Cost: linear in the changes.   @param changes  ascending
   void update_links(std::span<const LinkChange> changes);
+
+  /// Five vectors of floats, [n_row][3][lane], for the caller between two products in double, which
+  /// use their memory.
+  std::array<std::span<float>, 5> float_vectors() const;
 
   /// Frees what prepare makes anew: the merged contacts and the scratch of products. The next call
   /// is to be prepare or add_link_forces.
@@ -181,8 +186,8 @@ class Operator {
   /// [family][rows of its blocks][3][lane] vectors u of InverseView.
   std::vector<RowVector<float>> rank_one_;
   PointExchange exchange_;
-  /// Scratch, one cache line per point: packed vectors in double (two halves of a line) or float,
-  /// or the diagonal blocks. Never two of them at once.
+  /// Scratch of two parts. First: a packed vector in double, two in float, or the diagonal blocks.
+  /// Second: the vectors of floats, or another packed vector in double.
   struct alignas(64) Line {
     std::byte bytes[64];
   };

@@ -43,9 +43,11 @@ void set_blocks(System& system, Blocks blocks) {
   set_size(system.medium, system.n_row * kLanes);
   set_size(system.spring, end.first_spring * kSpringStride);
   set_size(system.hinge, end.first_hinge * kHingeStride);
+  set_size(system.normal, end.first_normal * kNormalStride);
   set_size(system.face, end.first_face * kFaceStride);
   set_size(system.beam, end.first_beam * kBeamStride);
   clear_own(system, system.hinge, &Block::first_hinge, kHingeStride);
+  clear_own(system, system.normal, &Block::first_normal, kNormalStride);
   clear_own(system, system.face, &Block::first_face, kFaceStride);
   clear_own(system, system.beam, &Block::first_beam, kBeamStride);
   clear_loads(system);

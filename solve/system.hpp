@@ -41,10 +41,12 @@ inline std::size_t find_spring(const BlockPattern& p, int i, int j) {
 /// Floats of one element, all eight lanes.
 inline constexpr int kSpringStride =
     5 * kLanes;  ///< u (3), a, c: matrix a u u^T + c I on x_j - x_i
-/// g on wing 0, wing 1 and spring point 0; on spring point 1 minus their sum: matrix g g^T
-inline constexpr int kHingeStride = 9 * kLanes;
-inline constexpr int kEdgeStride = 6 * kLanes;  ///< xx xy xz yy yz zz: a spring's matrix in full
-inline constexpr int kFaceStride = 6 * kLanes;  ///< g1 g2, g3 = -(g1 + g2): matrix g g^T
+/// a, b, c, d: g = a n1 on wing 0, b n2 on wing 1, c n1 + d n2 on spring point 0, and on spring
+/// point 1 minus their sum, with the normals n1 and n2 of the faces: matrix g g^T
+inline constexpr int kHingeStride = 4 * kLanes;
+inline constexpr int kNormalStride = 3 * kLanes;  ///< of a face at hinges; its length is free
+inline constexpr int kEdgeStride = 6 * kLanes;    ///< xx xy xz yy yz zz: a spring's matrix in full
+inline constexpr int kFaceStride = 6 * kLanes;    ///< g1 g2, g3 = -(g1 + g2): matrix g g^T
 /// g on the second end, minus that on the first; on the rotations; in two directions across the
 /// beam: matrix g g^T + h h^T
 inline constexpr int kBeamStride = 12 * kLanes;
@@ -55,7 +57,7 @@ using LaneIndex = std::uint32_t;
 /// Rank-one family: one vector per cell with a non-negative coefficient; adds c g g^T. Covers
 /// blocks [0, n_block).
 struct RankOne {
-  RowVector<double> vector;         ///< [rows of the covered blocks][3][lane]
+  RowVector<float> vector;          ///< [rows of the covered blocks][3][lane]
   std::vector<double> coefficient;  ///< [n_block][lane]
 };
 
@@ -72,7 +74,8 @@ struct System {
   RowVector<double> external_force;  ///< [n_row][3][lane] nN, migration and prescribed loads
   RowVector<double> medium;          ///< [n_row][lane] nN s/um, friction with the medium at rest
   RowVector<float> spring;           ///< [n_spring][5][lane]; a and c in nN/um
-  RowVector<float> hinge;            ///< [n_hinge][9][lane] sqrt(nN/um)
+  RowVector<float> hinge;            ///< [n_hinge][4][lane] times a normal: sqrt(nN/um)
+  RowVector<float> normal;           ///< [n_normal][3][lane]
   RowVector<float> face;             ///< [n_face][6][lane] sqrt(nN/um)
   RowVector<float> beam;             ///< [n_beam][12][lane] sqrt(nN/um)
   std::vector<RankOne> rank_one;
@@ -147,7 +150,7 @@ void clear_own_rows(const System& s, std::size_t stride, RowVector<T>& v) {
 template <class S, class F>
 void for_each_row_array(S& system, const F& f) {
   for (auto* v : {&system.force, &system.external_force, &system.medium}) f(*v);
-  for (auto* v : {&system.spring, &system.hinge, &system.face, &system.beam}) f(*v);
+  for (auto* v : {&system.spring, &system.hinge, &system.normal, &system.face, &system.beam}) f(*v);
   for (auto& family : system.rank_one) f(family.vector);
 }
 
@@ -167,8 +170,8 @@ void stream_rows(const System& system, std::span<const double> x,
                  const std::function<void(std::size_t, std::span<const double>)>& put,
                  std::size_t most = 40000);
 
-/// Zeroes every load that models add to; keeps capacity and scales. Hinges, faces, beams and point
-/// links are written, not added to, by the one term each belongs to.
+/// Zeroes every load that models add to; keeps capacity and scales. Hinges with their normals,
+/// faces, beams and point links are written, not added to, by the one term each belongs to.
 void clear_loads(System& system);
 
 /// Adds stiffness to a spring: a + c along u, c across it.

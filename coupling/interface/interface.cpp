@@ -284,8 +284,8 @@ void add_interface_loads(const InterfaceInput& in, const dcm::ContactWorkspace& 
     k.friction = static_cast<float>(friction);
     link.a = dcm::side_a(in.dcm, dcm_work, k);
     solve::set_law(k.slope, friction, k.gap, k.normal, link);
-    links.law[at] = {area * law.cohesive.repulsion, k.gap, contact_number};
-    ++at;
+    links.law[at].close({area * law.cohesive.repulsion, k.gap});
+    links.law[at++].contact = contact_number;
   }
 }
 

@@ -204,7 +204,7 @@ LifeReport turn_over(World& world, Workspace& work) {
   State before;
   if (reads_points(world)) complete_points(world, work);
   if (has_doubled_shell(world.state)) {
-    work.linearisation.state = {};  // room for the two states that there are now
+    release_solve(work);  // room for the three states that there are now
     before = world.state;
   }
   Plan plan = make_plan(world, work);

@@ -175,7 +175,7 @@ double depth_after(const World& world, const Workspace& w, std::size_t l) {
   const double max_depth = world.params.dcm_contact.max_depth, range = -kDeepShare * max_depth;
   const double unfelt = world.params.numerics.adaptive ? -kControlledDepth : range;
   const solve::Link& link = w.system.links.link[l];
-  const solve::LinkLaw& law = w.system.links.law[l];
+  const solve::ClosedLaw law = w.system.links.law[l].closed();
   const double gap = static_cast<double>(link.gap);
   if (gap > 0.5 * max_depth) return 0;
   const double end = gap_after(w, link);

@@ -82,10 +82,6 @@ double replace_law(const ActiveLaw& from, const ActiveLaw& to_law, const Vec3& n
   add(link.b.exists() ? s.force : s.external_force, force);
   add(w.rhs, force);
   add(w.cg.residual, force - resistance);
-  if (LinearisationPoint& point = w.linearisation; point.is_elsewhere())
-    add(point.product, stiffer * opening(stencil, link, [&](Address a) {
-                         return load_point(point.move.data(), a);
-                       }) * direction);
   link.stiffness = stiffness;
   return stiffer;
 }
@@ -111,8 +107,8 @@ bool activate_closing(Workspace& w) {
   std::vector<std::uint8_t> change(links.size(), 0);
   std::atomic<bool> wrong = false;
   for_each_index(links.size(), worth_threads(w.system.n_row), [&](std::size_t l) {
-    const solve::LinkLaw& law = links.law[l];
-    if (!(law.closed_stiffness > 0) || law.clearance <= 0) return;
+    const solve::ClosedLaw law = links.law[l].closed();
+    if (!(law.stiffness > 0) || law.clearance <= 0) return;
     if (!links.is_closed(l) && law.clearance + kShallowDepth > reach(links.link[l])) return;
     const double end = clearance_at(gap_after(w, links.link[l]), links.link[l], law);
     if (links.is_closed(l)) {
@@ -128,10 +124,10 @@ bool activate_closing(Workspace& w) {
   links.closed.resize(links.size(), 0);
   for (std::size_t l = 0; l < links.size(); ++l) {
     if (change[l] == 0) continue;
-    const solve::LinkLaw& law = links.law[l];
-    const contact::Contact& contact = w.contacts.all[law.contact];
+    const solve::ClosedLaw law = links.law[l].closed();
+    const contact::Contact& contact = w.contacts.all[links.law[l].contact];
     const ActiveLaw own{contact.force, contact.slope},
-        closed{-law.closed_stiffness * law.clearance, law.closed_stiffness};
+        closed{-law.stiffness * law.clearance, law.stiffness};
     const bool gained =
         links.closed[l] == 0 && !has_matrix(links.link[l], w.system.stiffness_scale);
     links.closed[l] = change[l];
@@ -148,8 +144,8 @@ bool pulls_open(const Workspace& w) {
   const solve::Links& links = w.system.links;
   bool open = false;
   for (std::size_t l = 0; l < links.size() && !open; ++l)
-    open = links.is_closed(l) &&
-           clearance_at(gap_after(w, links.link[l]), links.link[l], links.law[l]) > kMostGap;
+    open = links.is_closed(l) && clearance_at(gap_after(w, links.link[l]), links.link[l],
+                                              links.law[l].closed()) > kMostGap;
   return w.system.ownership.ranks.any(open);
 }
 

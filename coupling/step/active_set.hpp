@@ -14,7 +14,7 @@ namespace acinus::coupling {
 double gap_after(const Workspace& work, const solve::Link& link);
 
 /// Clearance of a contact from its repulsive branch at a gap of `end`, um; negative: depth.
-inline double clearance_at(double end, const solve::Link& link, const solve::LinkLaw& law) {
+inline double clearance_at(double end, const solve::Link& link, const solve::ClosedLaw& law) {
   return end + law.clearance - static_cast<double>(link.gap);
 }
 

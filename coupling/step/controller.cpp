@@ -87,6 +87,7 @@ void commit(double step, const Effort& effort, World& world, Workspace& w) {
   s.leader = w.leader;
   s.leader_interval = w.leader_interval;
   s.clock.time += step;
+  dcm::drop_forgotten(s.clock.time, s.dcm.birth);
   s.clock.last_step = step;
   s.clock.accepted += 1;
   s.clock.cg_iterations += effort.cg_iterations;

@@ -58,6 +58,16 @@ void extrapolate_moves(const World& world, double step, bool all, const Workspac
   });
 }
 
+/// Forces of boundary and medium, nN, at the velocity of the displacement to the point of
+/// linearisation, into w.cg.product; with their stiffness if not all cells are displaced.
+void apply_external_at_point(Workspace& w) {
+  const LinearisationPoint& point = w.linearisation;
+  if (point.moves_all)
+    w.op.apply_external_friction(point.move, w.cg.product);
+  else
+    w.op.apply_external(point.move, w.cg.product);
+}
+
 }  // namespace
 
 const State& choose_linearisation_point(const World& world, double step, bool first_try,
@@ -83,22 +93,23 @@ const State& choose_linearisation_point(const World& world, double step, bool fi
   return point.state;
 }
 
-void compute_point_products(Workspace& w) {
+void compute_pair_friction(Workspace& w) {
   LinearisationPoint& point = w.linearisation;
   w.op.fetch(point.move);
-  for (auto* v : {&point.friction, &point.pair_friction, &point.product, &w.cg.product})
-    set_size(*v, w.move.size());
-  if (point.moves_all) {
-    w.op.apply_friction(point.move, point.friction);
-    w.op.apply_external_friction(point.move, w.cg.product);
-  } else {
-    w.op.apply(point.move, point.friction);
-    w.op.apply_external(point.move, w.cg.product);
-  }
-  for_each_own_number(w.system, [&](std::size_t k) {
-    point.pair_friction[k] = point.friction[k] - w.cg.product[k];
-  });
-  remove_constraint(w, point.move, point.friction);
+  for (auto* v : {&point.pair_friction, &w.cg.product}) set_size(*v, w.move.size());
+  if (point.moves_all)
+    w.op.apply_friction(point.move, point.pair_friction);
+  else
+    w.op.apply(point.move, point.pair_friction);
+  apply_external_at_point(w);
+  for_each_own_number(w.system, [&](std::size_t k) { point.pair_friction[k] -= w.cg.product[k]; });
+}
+
+void compute_point_friction(Workspace& w) {
+  const LinearisationPoint& point = w.linearisation;
+  apply_external_at_point(w);
+  for_each_own_number(w.system, [&](std::size_t k) { w.cg.product[k] += point.pair_friction[k]; });
+  remove_constraint(w, point.move, w.cg.product);
 }
 
 }  // namespace acinus::coupling

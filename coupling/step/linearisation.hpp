@@ -14,9 +14,13 @@ namespace acinus::coupling {
 const State& choose_linearisation_point(const World& world, double step, bool first_try,
                                         Workspace& work);
 
-/// Computes the products of the assembled matrices with the displacement to the point of
-/// linearisation.   @pre the system is assembled at that point, which differs from the present
-/// state
-void compute_point_products(Workspace& work);
+/// Computes the friction between cells of the displacement to the point of linearisation.
+/// @pre the system is assembled at that point, which differs from the present state
+void compute_pair_friction(Workspace& work);
+
+/// Computes the friction, nN, of the displacement to the point of linearisation into
+/// work.cg.product, without penalty forces; with stiffness if not all cells are displaced.
+/// @pre compute_pair_friction
+void compute_point_friction(Workspace& work);
 
 }  // namespace acinus::coupling

@@ -17,14 +17,11 @@ namespace acinus::coupling {
 
 /// Solves again after changes of a few links, from the previous displacement. Without constrained
 /// cells goes on from the residual, with the coarse space of before.
-/// @pre work.op, work.rhs and work.cg.residual, and work.linearisation.product if that is
-/// elsewhere, are up to date
+/// @pre work.op, work.rhs and work.cg.residual are up to date
 [[nodiscard]] Status solve_again(const World& world, Workspace& work, Effort& effort);
 
 /// Solves for work.move from its initial guess and the right-hand side in work.rhs, then corrects
 /// the rigid motion of every cluster.
-/// @param product  matrix times the initial guess, or empty
-[[nodiscard]] Status solve_system(const World& world, Workspace& work, Effort& effort,
-                                  std::span<const double> product = {});
+[[nodiscard]] Status solve_system(const World& world, Workspace& work, Effort& effort);
 
 }  // namespace acinus::coupling

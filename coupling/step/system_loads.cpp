@@ -24,12 +24,27 @@ void refresh_params(const World& world, const State& at, double step, Workspace&
   dcm::set_dashpots(at.dcm, w.dcm_params, w.system.block.front());
 }
 
-/// Copies the positions of own points and of those in contact with them.
+/// Positions of all points in one array of the state, if they are; else empty.
+std::span<const double> positions_in_one(const State& at) {
+  for (const HeldRows<double>* x : {&at.dcm.position, &at.cbm.position})
+    if (x->size() == count_unknowns(at)) return *x;
+  return {};
+}
+
+/// Finds the positions of all points, or with several processes of own points and of those in
+/// contact with them.
 void refresh_positions(const State& at, Workspace& w) {
-  if (w.system.ownership.is_whole()) return gather_positions(at, w.position);
-  set_size(w.position, count_unknowns(at));
+  if (w.system.ownership.is_whole()) {
+    w.position = positions_in_one(at);
+    if (!w.position.empty()) return;
+    gather_positions(at, w.gathered);
+    w.position = w.gathered;
+    return;
+  }
+  set_size(w.gathered, count_unknowns(at));
+  w.position = w.gathered;
   const auto copy = [&](std::size_t k) {
-    w.position[k] = *position_of(at, static_cast<Address>(k));
+    w.gathered[k] = *position_of(at, static_cast<Address>(k));
   };
   for_each_own_number(w.system, copy);
   for (const solve::Point p : w.op.ghost_points())

@@ -58,11 +58,15 @@ void begin_contacts(const World& world, Workspace& w) {
     w.dcm.fixed.push_back(world.params.boundary.vessels.wall->surface.body);
 }
 
-void release_scratch(Workspace& w) {
-  w.op.release();
+void release_solve(Workspace& w) {
   w.cg = {};
   w.rigid.mode = RowVector<double>();  // assigning {} would keep the memory
   w.linearisation = {};
+}
+
+void release_scratch(Workspace& w) {
+  w.op.release();
+  release_solve(w);
 }
 
 void size_workspace(World& world, Workspace& w) {

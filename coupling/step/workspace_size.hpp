@@ -16,8 +16,10 @@ void size_workspace(World& world, Workspace& work);
 /// Sizes what contacts need: their search begins anew with the present set of cells.
 void begin_contacts(const World& world, Workspace& work);
 
-/// Frees what a step makes anew for its solve, as room for a frame: what is written is then the
-/// only large thing besides contacts and matrix.
+/// Frees the vectors that a step makes anew for its solve, as room for other states of the cells.
+void release_solve(Workspace& work);
+/// Frees these and the scratch of products, as room for a frame: what is written is then the only
+/// large thing besides contacts and matrix.
 void release_scratch(Workspace& work);
 
 }  // namespace acinus::coupling

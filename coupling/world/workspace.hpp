@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -30,12 +31,11 @@ struct MeasuredCost {
 /// Point of linearisation of a step, as displacements from the present positions; empty: the
 /// present positions.
 struct LinearisationPoint {
-  RowVector<double> move;           ///< [n_row][3][lane] um
-  bool moves_all = false;           ///< false: only constrained cells are displaced
-  State state;                      ///< at the point, if all are displaced; no last move
-  RowVector<double> friction;       ///< nN, Gamma/h times `move`; with K if not all are displaced
-  RowVector<double> product;        ///< nN, Gamma/h + K times it
-  RowVector<double> pair_friction;  ///< nN, part of `friction` between cells
+  RowVector<double> move;  ///< [n_row][3][lane] um
+  bool moves_all = false;  ///< false: only constrained cells are displaced
+  State state;             ///< at the point, if all are displaced; no last move
+  /// nN, Gamma/h between cells times `move`; with K if not all are displaced
+  RowVector<double> pair_friction;
   bool is_elsewhere() const { return !move.empty(); }
 };
 
@@ -80,9 +80,12 @@ struct Workspace {
   RowVector<double> medium_area;        ///< [dcm rows][lane]; written by: refresh_migration
   MediumFriction medium_friction;       ///< written by: refresh_migration
   CellForces forces;                    ///< written by: refresh_migration
-  RowVector<double> position;           ///< [n_row][3][lane]; written by: add_loads
-  std::vector<std::uint8_t> active;     ///< written by: size_workspace
-  Constraint constraint;                ///< set by the owner
+  /// [n_row][3][lane] um, at the point of linearisation: an array of that state, or `gathered`;
+  /// written by: add_loads
+  std::span<const double> position;
+  RowVector<double> gathered;        ///< positions that are not in one array
+  std::vector<std::uint8_t> active;  ///< written by: size_workspace
+  Constraint constraint;             ///< set by the owner
   /// [lane of all blocks] 1: late cell, which takes shorter steps of its own in this step
   /// (step/late_cells.hpp); empty: none
   std::vector<std::uint8_t> late;
@@ -106,8 +109,8 @@ void for_each_row_array(Workspace& w, const F& f) {
   w.cg.for_each_row_array(f);
   w.coarse.for_each_row_array(f);
   LinearisationPoint& point = w.linearisation;
-  for (auto* v : {&point.move, &point.friction, &point.product, &point.pair_friction}) f(*v);
-  for (auto* v : {&w.rigid.mode, &w.medium_area, &w.position, &w.rhs, &w.move, &w.cbm.force}) f(*v);
+  for (auto* v : {&point.move, &point.pair_friction}) f(*v);
+  for (auto* v : {&w.rigid.mode, &w.medium_area, &w.gathered, &w.rhs, &w.move, &w.cbm.force}) f(*v);
   for (auto* v : {&w.cbm.list_position, &w.cbm.list_radius, &w.cbm.contact_area}) f(*v);
   for (auto* v : {&w.cbm_radius, &w.cbm_strength}) f(*v);
   f(w.cbm_mother);

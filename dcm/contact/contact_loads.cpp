@@ -105,7 +105,7 @@ struct Completion {
     link.b = side_b(in, work, k);
     const double gap = k.is_fold() ? law.clearance : k.gap;
     solve::set_law(k.slope, friction, gap, k.normal, link);
-    closed = {law.area * law.cohesive.repulsion, law.clearance};
+    closed.close({law.area * law.cohesive.repulsion, law.clearance});
   }
 };
 

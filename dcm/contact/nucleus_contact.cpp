@@ -199,7 +199,8 @@ void add_nucleus_contacts(const ContactInput& in, const ContactWorkspace& cortic
     link.b = side_at(in.state, lane,
                      {3, {first + corner[0], first + corner[1], first + corner[2]}, c.weights()});
     solve::set_law(c.slope, 0, c.gap, c.normal, link);
-    links.law[at] = {closed_stiffness, c.gap, static_cast<std::uint32_t>(number)};
+    links.law[at].close({closed_stiffness, c.gap});
+    links.law[at].contact = static_cast<std::uint32_t>(number);
     ++at;
     ++number;
   }

@@ -41,9 +41,10 @@ ACINUS_KERNEL void tension_kernel(const GroupView& g, const double* across_of_la
 }  // namespace
 
 void add_area(const Params& p, const GroupView& g, solve::System& s, solve::RankOne& family) {
-  double* gradient = family.vector.data() + g.first_row * kPointStride;
+  double* const gradient = zero_gradient(g.topology->n_node);
   double area[kLanes], pull[kLanes], across[kLanes];
   area_kernel(g, gradient, area);
+  round_gradient(g.topology->n_node, gradient, family.vector.data() + g.first_row * kPointStride);
   bool tense = false;
   for (int l = 0; l < kLanes; ++l) {
     const double a0 = rest_area(g, l);

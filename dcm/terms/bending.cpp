@@ -113,8 +113,26 @@ ACINUS_INLINE void add_collapses(const EdgeFaces& f, const std::array<int, 4>& h
                {{f.x[1], f.x[3], f.x[2]}, f.n2, {at[1], at[3], at[2]}}, spring);
 }
 
+/// Arrays that the kernel writes.
+struct BendingOutput {
+  double* force;
+  float *hinge, *normal, *spring;
+};
+
+/// Writes the normals of all faces, times twice their areas, um^2.
+ACINUS_INLINE void store_normals(const GroupView& g, float* normal) {
+  for (const auto& [i, j, k] : g.topology->triangle) {
+    const Lane3 x = load3(g.position + i * kPointStride);
+    store3(normal, cross(load3(g.position + j * kPointStride) - x,
+                         load3(g.position + k * kPointStride) - x));
+    normal += solve::kNormalStride;
+  }
+}
+
 ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double stiffness_scale,
-                                  double* force, float* element, float* spring) {
+                                  const BendingOutput& out) {
+  auto [force, element, normal, spring] = out;
+  store_normals(g, normal);
   const geometry::Topology& t = *g.topology;
   const Lane k = p.bending_stiffness * load(g.active);
   const Lane radius = load(g.radius);
@@ -148,18 +166,20 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
     const Lane root = lane_sqrt(stiffness);
 
     const Lane inverse_squares = inverse_norms * inverse_norms;
-    const Lane3 a1 = (s2 * inverse_squares) * n1, a2 = (s1 * inverse_squares) * n2;
-    const Lane3 grad1 = length * a1, grad2 = length * a2;
-    const Lane3 grad3 =
-        (dot(x1 - x4, edge) * inverse_length) * a1 + (dot(x2 - x4, edge) * inverse_length) * a2;
+    const Lane inverse1 = s2 * inverse_squares, inverse2 = s1 * inverse_squares;  // of s1, s2
+    const Lane end1 = dot(x1 - x4, edge) * inverse_length,
+               end2 = dot(x2 - x4, edge) * inverse_length;
+    const Lane3 a1 = inverse1 * n1, a2 = inverse2 * n2;
+    const Lane3 grad1 = length * a1, grad2 = length * a2, grad3 = end1 * a1 + end2 * a2;
     const Lane3 f1 = -moment * grad1, f2 = -moment * grad2, f3 = -moment * grad3;
     add3(force + h[0] * kPointStride, f1);
     add3(force + h[1] * kPointStride, f2);
     add3(force + h[2] * kPointStride, f3);
     add3(force + h[3] * kPointStride, -(f1 + f2 + f3));  // the four gradients add up to zero
-    store3(element, root * grad1);
-    store3(element + 3 * kLanes, root * grad2);
-    store3(element + 6 * kLanes, root * grad3);
+    store(element, root * length * inverse1);
+    store(element + kLanes, root * length * inverse2);
+    store(element + 2 * kLanes, root * end1 * inverse1);
+    store(element + 3 * kLanes, root * end2 * inverse2);
     element += solve::kHingeStride;
 
     const auto& face = t.edge_triangle[e];
@@ -176,9 +196,11 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
 }  // namespace
 
 void add_bending(const Params& p, const GroupView& g, solve::System& s) {
-  bending_kernel(p, g, s.stiffness_scale, s.force.data() + g.first_row * kPointStride,
-                 s.hinge.data() + g.first_hinge * solve::kHingeStride,
-                 s.spring.data() + g.first_spring * solve::kSpringStride);
+  bending_kernel(p, g, s.stiffness_scale,
+                 {s.force.data() + g.first_row * kPointStride,
+                  s.hinge.data() + g.first_hinge * solve::kHingeStride,
+                  s.normal.data() + g.first_normal * solve::kNormalStride,
+                  s.spring.data() + g.first_spring * solve::kSpringStride});
 }
 
 namespace {

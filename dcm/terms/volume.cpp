@@ -33,9 +33,10 @@ ACINUS_KERNEL void volume_kernel(const GroupView& g, double* gradient, double* v
 }  // namespace
 
 void add_volume(const Params& p, const GroupView& g, solve::System& s, solve::RankOne& family) {
-  double* gradient = family.vector.data() + g.first_row * kPointStride;
+  double* const gradient = zero_gradient(g.topology->n_node);
   double volume[kLanes], pressure[kLanes];
   volume_kernel(g, gradient, volume);
+  round_gradient(g.topology->n_node, gradient, family.vector.data() + g.first_row * kPointStride);
   for (int l = 0; l < kLanes; ++l) {
     const double v0 = 4.0 / 3 * kPi * g.radius[l] * g.radius[l] * g.radius[l];
     const double v = std::max(volume[l], kSmallestVolume * v0);

@@ -222,5 +222,16 @@ TEST(BirthShape, IsForgottenInAStraightLine) {
   EXPECT_TRUE(make_lane_data(c.state, 500).edge[0].empty());
 }
 
+TEST(BirthShape, IsFreedOnceItIsForgotten) {
+  Cells c = make_half_spheres(1.2, {1, 0, 100, 500});
+  c.state.birth[kDaughters[1]].weight = {1, 0, 100, 600};
+  drop_forgotten(499, c.state.birth);
+  for (const std::size_t lane : kDaughters) EXPECT_FALSE(c.state.birth[lane].edge.empty());
+  drop_forgotten(500, c.state.birth);
+  EXPECT_EQ(c.state.birth[kDaughters[0]].edge.memory(), 0u);
+  EXPECT_EQ(c.state.birth[kDaughters[0]].triangle.memory(), 0u);
+  EXPECT_FALSE(c.state.birth[kDaughters[1]].edge.empty()) << "still remembered";
+}
+
 }  // namespace
 }  // namespace acinus::dcm

@@ -133,7 +133,7 @@ TEST_P(EveryTerm, MatrixIsBlindToTranslation) {
   for (double v : y) pull = std::max(pull, std::abs(v));
   for (const solve::RankOne& r : c.system.rank_one) {
     double most = 0;
-    for (double g : r.vector) most = std::max(most, std::abs(g));
+    for (float g : r.vector) most = std::max(most, std::abs(static_cast<double>(g)));
     for (double k : r.coefficient) family = std::max(family, k * most * most * 7 * c.n_node());
   }
   std::printf("%s: force of a translation %.1e nN\n", GetParam().name, pull);
@@ -264,6 +264,7 @@ TEST(MeshPattern, HasTheElementsThatTermsUse) {
       EXPECT_EQ(pattern.face, area > 0 ? t.triangle : decltype(t.triangle){});
       for (std::size_t e = 0; e < pattern.wing.size(); ++e) {
         EXPECT_EQ(pattern.wing[e], (std::array<int, 2>{t.hinge[e][0], t.hinge[e][1]}));
+        EXPECT_EQ(pattern.flank[e], t.edge_triangle[e]);
         // the sweep over hinges takes their other two points from the spring
         EXPECT_EQ(t.edge[e], (std::array<int, 2>{t.hinge[e][2], t.hinge[e][3]}));
       }
@@ -271,6 +272,7 @@ TEST(MeshPattern, HasTheElementsThatTermsUse) {
       solve::set_blocks(c.system, make_blocks(c.state, std::span(&p, 1)));
       EXPECT_EQ(c.system.spring.size(), t.edge.size() * solve::kSpringStride);
       EXPECT_EQ(c.system.hinge.empty(), bending == 0);
+      EXPECT_EQ(c.system.normal.empty(), bending == 0);
       EXPECT_EQ(c.system.face.empty(), area == 0);
     }
   EXPECT_NE(&shared_mesh_pattern(t, params_without_terms()),

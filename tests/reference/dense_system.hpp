@@ -74,9 +74,15 @@ inline void add_elements(Eigen::MatrixXd& to, const solve::System& s, const solv
   }
   for (std::size_t e = 0; e < p.wing.size(); ++e) {
     const std::size_t k = (block.first_hinge + e) * solve::kHingeStride;
-    const Vec3 g1 = element_vector(s.hinge, k, lane),
-               g2 = element_vector(s.hinge, k + 3 * kLanes, lane),
-               g3 = element_vector(s.hinge, k + 6 * kLanes, lane);
+    const auto number = [&](std::size_t i) {
+      return static_cast<double>(s.hinge[k + i * kLanes + static_cast<std::size_t>(lane)]);
+    };
+    const auto normal = [&](int face) {
+      const std::size_t n = block.first_normal + static_cast<std::size_t>(face);
+      return element_vector(s.normal, n * solve::kNormalStride, lane);
+    };
+    const Vec3 n1 = normal(p.flank[e][0]), n2 = normal(p.flank[e][1]);
+    const Vec3 g1 = number(0) * n1, g2 = number(1) * n2, g3 = number(2) * n1 + number(3) * n2;
     add_outer(to, {{at(p.wing[e][0]), g1},
                    {at(p.wing[e][1]), g2},
                    {at(p.spring[e][0]), g3},
@@ -137,7 +143,7 @@ inline void add_rank_one(Eigen::MatrixXd& to, const solve::System& s) {
           for (Address c = 0; c < 3; ++c) {
             const Address at =
                 make_address(s.block[b].first_row + static_cast<std::size_t>(i), l) + c * kLanes;
-            g(at) = family.vector[at];
+            g(at) = static_cast<double>(family.vector[at]);
           }
         to += family.coefficient[b * kLanes + static_cast<std::size_t>(l)] * g * g.transpose();
       }

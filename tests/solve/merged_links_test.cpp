@@ -436,8 +436,8 @@ struct SolvedTissue {
   SolvedTissue(double tolerance, Precision precision, int expected_iterations = 0) {
     op.prepare(system);
     CgWorkspace work;
-    result = solve_cg({op, rhs, nullptr, {}, expected_iterations}, x, {tolerance, 2000, precision},
-                      work);
+    result =
+        solve_cg({op, rhs, nullptr, expected_iterations}, x, {tolerance, 2000, precision}, work);
   }
   bool is_merged() const {
     const auto probe = random_vector_of<float>(system, 90);

@@ -423,7 +423,7 @@ TEST(System, ClearLoadsLeavesOnlyWhatIsWrittenAfresh) {
     for (double x : *v) ASSERT_EQ(x, 0);
   for (float x : s.spring) ASSERT_EQ(x, 0);
   for (const RankOne& family : s.rank_one) {
-    for (double x : family.vector) ASSERT_EQ(x, 0);
+    for (float x : family.vector) ASSERT_EQ(x, 0);
     for (double x : family.coefficient) ASSERT_EQ(x, 0);
   }
   EXPECT_EQ(s.links.size(), 0u);
@@ -442,6 +442,7 @@ TEST(System, BlocksLieOneAfterTheOther) {
   EXPECT_EQ(s.block[2].first_row, 12u);
   EXPECT_EQ(s.spring.size(), 11u * kSpringStride);
   EXPECT_EQ(s.hinge.size(), 6u * kHingeStride);
+  EXPECT_EQ(s.normal.size(), 8u * kNormalStride);
   EXPECT_EQ(s.face.size(), 5u * kFaceStride);
   EXPECT_EQ(s.n_dof(), 14u * kPointStride);
 }

@@ -16,7 +16,13 @@ inline const BlockPattern kFive{
 inline const BlockPattern kSeven{7,
                                  {{0, 6}, {2, 5}, {1, 4}, {0, 3}, {5, 6}, {2, 3}},
                                  {{3, 5}, {3, 6}, {0, 2}, {6, 2}, {0, 2}, {5, 0}},
-                                 {{0, 6, 3}, {2, 5, 1}, {4, 1, 0}}};
+                                 {{0, 6, 3}, {2, 5, 1}, {4, 1, 0}},
+                                 {},
+                                 {},
+                                 {},
+                                 -1,
+                                 {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {1, 4}, {3, 6}},
+                                 8};
 inline const BlockPattern kSingle{1, {}, {}, {}};
 
 inline Block block_of(const BlockPattern& pattern) {
@@ -36,8 +42,10 @@ inline void fill_elements(System& s, UniformStream& random) {
       s.spring[at + 3 * kLanes + l] = static_cast<float>(random.uniform(-0.9 * across, 1));
       s.spring[at + 4 * kLanes + l] = static_cast<float>(across);
     }
-  for (auto* g : {&s.hinge, &s.face})
-    for (float& v : *g) v = static_cast<float>(random.uniform(-0.7, 0.7));
+  for (float& v : s.face) v = static_cast<float>(random.uniform(-0.7, 0.7));
+  for (float& v : s.normal) v = static_cast<float>(random.uniform(-0.7, 0.7));
+  for (float& v : s.hinge)  // not near 0, which would leave cells with soft modes
+    v = static_cast<float>(random.uniform(0.7, 1.3) * (random.uniform() < 0.5 ? -1 : 1));
 }
 
 inline PointLink make_point_link(Point a, Point b, const Vec3& normal, double stiffness,
@@ -113,8 +121,8 @@ inline System make_system(std::uint64_t seed, int copies = 1) {
   fill_elements(s, random);
   for (std::size_t n_block : {s.block.size(), std::size_t{1}}) {
     const std::size_t rows = n_block > 1 ? s.n_row : 5;
-    RankOne family{RowVector<double>(rows * kPointStride), std::vector<double>(n_block * kLanes)};
-    for (double& v : family.vector) v = random.uniform(-1, 1);
+    RankOne family{RowVector<float>(rows * kPointStride), std::vector<double>(n_block * kLanes)};
+    for (float& v : family.vector) v = static_cast<float>(random.uniform(-1, 1));
     for (double& v : family.coefficient) v = random.uniform(0, 0.5);
     s.rank_one.push_back(family);
   }

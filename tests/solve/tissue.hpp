@@ -51,6 +51,8 @@ inline Mesh make_icosphere(int n_node) {
   const geometry::Topology& t = geometry::shared_icosphere(n_node);
   Mesh m{t.triangle, {t.n_node, t.edge, {}, {}}};
   for (const auto& h : t.hinge) m.pattern.wing.push_back({h[0], h[1]});
+  m.pattern.flank = t.edge_triangle;
+  m.pattern.n_normal = t.n_triangle;
   index_springs(m.pattern);
   return m;
 }
@@ -113,9 +115,9 @@ class Tissue {
   void add_elements() {
     for (double& m : system.medium) m = random_.uniform(0.05, 0.2);
     fill_elements(system, random_);
-    RankOne family{RowVector<double>(system.n_dof()),
+    RankOne family{RowVector<float>(system.n_dof()),
                    std::vector<double>(system.block.size() * kLanes)};
-    for (double& v : family.vector) v = random_.uniform(-1, 1);
+    for (float& v : family.vector) v = static_cast<float>(random_.uniform(-1, 1));
     for (double& v : family.coefficient) v = random_.uniform(0, 0.5);
     system.rank_one.push_back(family);
   }

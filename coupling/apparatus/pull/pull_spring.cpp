@@ -16,7 +16,8 @@ void add_pull_springs(const dcm::GroupView& g, std::span<const PullSpring> sprin
       const Address node = make_address(g.first_row + i, l);
       const Vec3 gradient = share(i) * held.direction;
       add_point(s.external_force.data(), node, force * gradient);
-      store_point(family.vector.data(), node, gradient);
+      for (int k = 0; k < 3; ++k)
+        family.vector[node + k * kLanes] = static_cast<float>(gradient[k]);
     }
     family.coefficient[g.index * kLanes + l] = s.stiffness_scale * held.stiffness;
   }
