@@ -13,30 +13,15 @@
 
 namespace acinus::solve {
 
-namespace {
-
-/// Bytes of one row in the parts of the scratch.
-constexpr std::size_t kFirstPart = kLanes * sizeof(Packed<double>);
-constexpr std::size_t kFloatVector = kPointStride * sizeof(float), kFloatVectors = 5;
-constexpr std::size_t kSecondPart = kFloatVectors * kFloatVector;
-static_assert(kFirstPart == kLanes * 2 * sizeof(Packed<float>));
-static_assert(kFirstPart == kLanes * sizeof(SymBlock));
-static_assert(kFirstPart <= kSecondPart);
-
-}  // namespace
+// The first part of the scratch holds one packed vector in double; the second another one.
+static_assert(sizeof(Packed<double>) == 2 * sizeof(Packed<float>));
+static_assert(sizeof(Packed<double>) == sizeof(SymBlock));
+static_assert(kLanes * sizeof(Packed<double>) <= 5 * kPointStride * sizeof(float));
 
 template <class T>
 Operator::PackedVectors<T> Operator::packed() const {
   auto* const x = reinterpret_cast<Packed<T>*>(scratch_.data());
   return {x, x + system_->n_row * kLanes};
-}
-std::array<std::span<float>, 5> Operator::float_vectors() const {
-  const std::size_t n = system_->n_dof();
-  auto* const bytes = reinterpret_cast<std::byte*>(scratch_.data());
-  auto* const first = reinterpret_cast<float*>(bytes + system_->n_row * kFirstPart);
-  std::array<std::span<float>, kFloatVectors> vectors;
-  for (std::size_t k = 0; k < vectors.size(); ++k) vectors[k] = {first + k * n, n};
-  return vectors;
 }
 SymBlock* Operator::diagonal() const { return reinterpret_cast<SymBlock*>(scratch_.data()); }
 
@@ -217,7 +202,9 @@ void Operator::compute_inverse() {
 void Operator::start(const System& system) {
   ACINUS_ASSERT(system.rank_one.size() <= kMaxFamilies);
   system_ = &system;
-  set_size(scratch_, (system.n_row * (kFirstPart + kSecondPart) + sizeof(Line) - 1) / sizeof(Line));
+  const std::size_t bytes =
+      system.n_row * kLanes * sizeof(Packed<double>) + 5 * system.n_dof() * sizeof(float);
+  set_size(scratch_, (bytes + sizeof(Line) - 1) / sizeof(Line));
   divide();
   merged_ = false;
 }

@@ -2,6 +2,16 @@
 
 namespace acinus::solve {
 
+std::array<std::span<float>, 5> Operator::float_vectors() const {
+  const std::size_t n = system_->n_dof();
+  auto* const bytes = reinterpret_cast<std::byte*>(scratch_.data());
+  auto* const first =
+      reinterpret_cast<float*>(bytes + system_->n_row * kLanes * sizeof(Packed<double>));
+  std::array<std::span<float>, 5> vectors;
+  for (std::size_t k = 0; k < vectors.size(); ++k) vectors[k] = {first + k * n, n};
+  return vectors;
+}
+
 void Operator::release() {
   merge_ = {};
   merger_ = {};
