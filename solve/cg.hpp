@@ -33,9 +33,9 @@ struct CgResult {
 
 /// Scratch, sized on first use.
 struct CgWorkspace {
-  RowVector<double> residual;               ///< b - A x of the solution returned
-  double load = 0;                          ///< sqrt(b^T M^-1 b) of the last call of solve_cg
-  RowVector<double> product;                ///< scratch; free for other use between solves
+  RowVector<double> residual;  ///< b - A x of the solution returned
+  double load = 0;            ///< norm that the tolerance refers to; solve_cg sets sqrt(b^T M^-1 b)
+  RowVector<double> product;  ///< scratch; free for other use between solves
   std::array<RowVector<double>, 5> vector;  ///< of passes in double
 
   template <class F>
