@@ -11,7 +11,7 @@ struct GroupView {
   std::size_t index;      ///< group number
   std::size_t first_row;  ///< first point row in the global arrays
   /// First elements in the global arrays.
-  std::size_t first_spring, first_hinge, first_normal, first_face;
+  std::size_t first_shape, first_spring, first_hinge, first_face;
   const double* position;  ///< [n_node][3][lane] um
   const double* radius;    ///< [lane] um, reference radius at the end of the step
   const double* area;      ///< [lane] reference surface over that of a sphere (BirthShape)

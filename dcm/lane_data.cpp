@@ -108,9 +108,9 @@ GroupView view_group(const State& state, const LaneData& lanes, const solve::Sys
   return {g.topology,
           k,
           g.first_row,
+          block.first_shape,
           block.first_spring,
           block.first_hinge,
-          block.first_normal,
           block.first_face,
           state.position.data() + g.first_row * kPointStride,
           lanes.radius.data() + k * kLanes,
@@ -130,9 +130,9 @@ GroupView view_nuclei(const State& state, const LaneData& lanes, const solve::Sy
   GroupView view = view_group(state, lanes, s, k);
   view.topology = g.nucleus.topology;
   view.first_row = g.first_nucleus_row();
+  view.first_shape = block.first_shape + static_cast<std::size_t>(g.topology->n_node);
   view.first_spring = block.first_spring + n_edge;
   view.first_hinge = block.first_hinge + n_edge;
-  view.first_normal = block.first_normal + static_cast<std::size_t>(g.topology->n_triangle);
   view.position = state.position.data() + view.first_row * kPointStride;
   view.radius = lanes.nucleus.radius.data() + k * kLanes;
   view.area = lanes.nucleus.unit.data() + k * kLanes;

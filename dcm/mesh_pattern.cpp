@@ -15,8 +15,6 @@ void add_mesh(const geometry::Topology& t, int first, bool hinges, solve::BlockP
   // a hinge's third and fourth node are the ends of its edge, in the edge's order
   if (!hinges) return;
   for (const auto& h : t.hinge) p.wing.push_back({first + h[0], first + h[1]});
-  for (const auto& [f, g] : t.edge_triangle) p.flank.push_back({p.n_normal + f, p.n_normal + g});
-  p.n_normal += t.n_triangle;
 }
 
 }  // namespace

@@ -7,15 +7,15 @@ namespace acinus::solve {
 void Blocks::append(Block b) {
   const BlockPattern& p = *b.pattern;
   b.first_row = end_.first_row;
+  b.first_shape = end_.first_shape;
   b.first_spring = end_.first_spring;
   b.first_hinge = end_.first_hinge;
-  b.first_normal = end_.first_normal;
   b.first_face = end_.first_face;
   b.first_beam = end_.first_beam;
   end_.first_row += static_cast<std::size_t>(p.n_point);
+  if (p.has_shape()) end_.first_shape += static_cast<std::size_t>(p.n_point);
   end_.first_spring += p.spring.size();
   end_.first_hinge += p.wing.size();
-  end_.first_normal += static_cast<std::size_t>(p.n_normal);
   end_.first_face += p.face.size();
   end_.first_beam += p.beam.size();
   if (n_equal_ > 0) return back_.push_back(b);

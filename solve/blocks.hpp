@@ -28,11 +28,8 @@ struct BlockPattern {
   std::vector<std::size_t> first_spring_of{};
   /// First point that is a rotation instead of a position, in um on a lever of 1 um. -1: none.
   int n_place = -1;
-  /// [n_spring] the two faces that meet at each hinge, on the sides of its wings, of n_normal; with
-  /// `wing`
-  std::vector<std::array<int, 2>> flank{};
-  int n_normal = 0;
 
+  bool has_shape() const { return !spring.empty(); }
   bool has_rotations() const { return n_place >= 0; }
   int count_places() const { return has_rotations() ? n_place : n_point; }
 };
@@ -40,8 +37,9 @@ struct BlockPattern {
 /// Eight cells with one pattern.
 struct Block {
   const BlockPattern* pattern = nullptr;
-  std::size_t first_row = 0;  ///< first point row
-  std::size_t first_spring = 0, first_hinge = 0, first_normal = 0, first_face = 0, first_beam = 0;
+  std::size_t first_row = 0;    ///< first point row
+  std::size_t first_shape = 0;  ///< first row of the shape; no rows without springs
+  std::size_t first_spring = 0, first_hinge = 0, first_face = 0, first_beam = 0;
   bool still = false;         ///< cells that do not move: their rank-one terms are left out
   double dashpot = 0;         ///< nN s/um, friction included in the matrix of each spring
   double dashpot_across = 1;  ///< ratio of the friction across a spring to that along it

@@ -22,13 +22,14 @@ template <class T>
 struct HingeVectors {
   Lane3Of<T> wing0, wing1, end;
 };
+/// @param d, sj  difference of the shape along the hinge's spring, and its second point
 template <class T>
-ACINUS_INLINE HingeVectors<T> load_hinge(const BlockView& b, std::size_t hinge) {
+ACINUS_INLINE HingeVectors<T> load_hinge(const BlockView& b, std::size_t hinge, const Lane3Of<T>& d,
+                                         const Lane3Of<T>& sj) {
   const float* const h = b.hinge + hinge * kHingeStride;
-  const auto normal = [&](std::size_t side) __attribute__((always_inline)) {
-    return load3<T>(b.normal + b.pattern->flank[hinge][side] * kNormalStride);
-  };
-  const Lane3Of<T> n1 = normal(0), n2 = normal(1);
+  const auto& [p, q] = b.pattern->wing[hinge];
+  const Lane3Of<T> n1 = cross(d, load3<T>(b.shape + p * kPointStride) - sj);
+  const Lane3Of<T> n2 = cross(load3<T>(b.shape + q * kPointStride) - sj, d);
   return {load<T>(h) * n1, load<T>(h + kLanes) * n2,
           load<T>(h + 2 * kLanes) * n1 + load<T>(h + 3 * kLanes) * n2};
 }
@@ -42,19 +43,18 @@ ACINUS_INLINE void add_edges(const BlockView& b, const T* x, T* y) {
     const int i = spring[k][0] * kPointStride, j = spring[k][1] * kPointStride;
     const Lane3Of<T> xj = load3<T>(x + j);
     const Lane3Of<T> r = xj - load3<T>(x + i);
+    const Lane3Of<T> sj = load3<T>(b.shape + j), d = sj - load3<T>(b.shape + i);
     Lane3Of<T> f;
     if constexpr (kMerged) {
       f = sym_times(e, r);
       e += kEdgeStride;
     } else {
-      const Lane3Of<T> u = load3<T>(e);
-      const LaneOf<T> along = load<T>(e + 3 * kLanes) * dot(u, r);
-      f = along * u + load<T>(e + 4 * kLanes) * r;
+      f = (load<T>(e) * dot(d, r)) * d + load<T>(e + kLanes) * r;
       e += kSpringStride;
     }
     if constexpr (kHinges) {
       const int p = b.pattern->wing[k][0] * kPointStride, q = b.pattern->wing[k][1] * kPointStride;
-      const auto [g1, g2, g3] = load_hinge<T>(b, k);
+      const auto [g1, g2, g3] = load_hinge<T>(b, k, d, sj);
       const LaneOf<T> s =
           dot(g1, load3<T>(x + p) - xj) + dot(g2, load3<T>(x + q) - xj) - dot(g3, r);
       const Lane3Of<T> f1 = s * g1, f2 = s * g2, f3 = s * g3;
@@ -212,10 +212,10 @@ BlockView view_block(const System& s, std::size_t b, const float* edge) {
   const Block& block = s.block[b];
   BlockView view{block.pattern,
                  s.medium.data() + block.first_row * kLanes,
+                 s.shape.data() + block.first_shape * kPointStride,
                  s.spring.data() + block.first_spring * kSpringStride,
                  edge ? edge + block.first_spring * kEdgeStride : nullptr,
                  s.hinge.data() + block.first_hinge * kHingeStride,
-                 s.normal.data() + block.first_normal * kNormalStride,
                  s.face.data() + block.first_face * kFaceStride,
                  s.beam.data() + block.first_beam * kBeamStride,
                  s.friction_scale,
@@ -249,19 +249,17 @@ ACINUS_KERNEL void multiply_friction(const BlockView& b, const double* x,
                load_packed<double>(contact + i * kLanes));
   if (!(b.dashpot > 0)) return;
   const Lane friction = lane_of(b.friction_scale * b.dashpot);
-  const float* e = b.spring;
   for (const auto& [first, second] : b.pattern->spring) {
     const int i = first * kPointStride, j = second * kPointStride;
     const Lane3 r = load3(x + j) - load3(x + i);
     Lane3 f = friction * r;
     if (b.dashpot_across != 1) {
-      const Lane3 u = load3(e);
+      const Lane3 d = load3(b.shape + j) - load3(b.shape + i);
       const double s = b.dashpot_across;
-      f = (s * friction) * r + ((1 - s) * friction * dot(u, r)) * u;
+      f = (s * friction) * r + ((1 - s) * friction * dot(d, r) / dot(d, d)) * d;
     }
     add3(y + j, f);
     add3(y + i, -f);
-    e += kSpringStride;
   }
 }
 
@@ -269,23 +267,22 @@ ACINUS_KERNEL void add_diagonal(const BlockView& b, double* d) {
   const BlockPattern& pattern = *b.pattern;
   for (int i = 0; i < pattern.n_point; ++i)
     add_identity_sym(d + i * kSymStride, b.friction_scale * load(b.medium + i * kLanes));
-  const float* e = b.spring;
-  for (const auto& s : pattern.spring) {
-    const Lane3 u = load3(e);
-    const Lane a = load(e + 3 * kLanes), c = load(e + 4 * kLanes);
-    for (int i : s) {
-      add_outer_sym(d + i * kSymStride, a, u);
-      add_identity_sym(d + i * kSymStride, c);
-    }
-    e += kSpringStride;
-  }
   const Lane one = lane_of(1);
-  for (std::size_t k = 0; k < pattern.wing.size(); ++k) {
-    const auto [g1, g2, g3] = load_hinge<double>(b, k);
+  const float* e = b.spring;
+  for (std::size_t k = 0; k < pattern.spring.size(); ++k, e += kSpringStride) {
+    const auto& [i, j] = pattern.spring[k];
+    const Lane3 sj = load3(b.shape + j * kPointStride), r = sj - load3(b.shape + i * kPointStride);
+    const Lane a = load(e), c = load(e + kLanes);
+    for (int end : {i, j}) {
+      add_outer_sym(d + end * kSymStride, a, r);
+      add_identity_sym(d + end * kSymStride, c);
+    }
+    if (pattern.wing.empty()) continue;
+    const auto [g1, g2, g3] = load_hinge<double>(b, k, r, sj);
     add_outer_sym(d + pattern.wing[k][0] * kSymStride, one, g1);
     add_outer_sym(d + pattern.wing[k][1] * kSymStride, one, g2);
-    add_outer_sym(d + pattern.spring[k][0] * kSymStride, one, g3);
-    add_outer_sym(d + pattern.spring[k][1] * kSymStride, one, g1 + g2 + g3);
+    add_outer_sym(d + i * kSymStride, one, g3);
+    add_outer_sym(d + j * kSymStride, one, g1 + g2 + g3);
   }
   e = b.face;
   for (const auto& f : pattern.face) {

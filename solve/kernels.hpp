@@ -14,10 +14,10 @@ inline constexpr std::size_t kMaxFamilies = 8;
 struct BlockView {
   const BlockPattern* pattern;
   const double* medium;  ///< [n_point][lane]
+  const float* shape;
   const float* spring;
   const float* edge;  ///< springs with merged contacts; null: use spring, contacts are apart
   const float* hinge;
-  const float* normal;  ///< of faces, for the hinges
   const float* face;
   const float* beam;
   double friction_scale;

@@ -41,18 +41,20 @@ struct FaceSprings {
 };
 
 /// Writes the springs of one block as full symmetric blocks, plus the sums of the contacts.
-ACINUS_KERNEL void write_edges(std::size_t n_spring, const float* spring, const SymBlock* sum,
-                               float* edge) {
-  for (std::size_t k = 0; k < n_spring; ++k, sum += kLanes) {
-    const auto u = load3<float>(spring);
-    const auto a = load<float>(spring + 3 * kLanes), c = load<float>(spring + 4 * kLanes);
-    const LaneOf<float> own[6] = {a * u.x * u.x + c, a * u.x * u.y, a * u.x * u.z,
-                                  a * u.y * u.y + c, a * u.y * u.z, a * u.z * u.z + c};
+ACINUS_KERNEL void write_edges(const BlockPattern& pattern, const float* shape, const float* spring,
+                               const SymBlock* sum, float* edge) {
+  for (const auto& [i, j] : pattern.spring) {
+    const auto d = load3<float>(shape + j * kPointStride) - load3<float>(shape + i * kPointStride);
+    const auto a = load<float>(spring), c = load<float>(spring + kLanes);
+    const auto ax = a * d.x, ay = a * d.y;
+    const LaneOf<float> own[6] = {ax * d.x + c, ax * d.y, ax * d.z,
+                                  ay * d.y + c, ay * d.z, a * d.z * d.z + c};
     for (std::size_t e = 0; e < 6; ++e) {
       LaneOf<float> more;
       for (std::size_t l = 0; l < kLanes; ++l) more[l] = sum[l][e];
       store(edge + e * kLanes, own[e] + more);
     }
+    sum += kLanes;
     spring += kSpringStride;
     edge += kEdgeStride;
   }
@@ -162,8 +164,9 @@ void LinkMerger::add_within(const System& s, RowVector<float>& edge) {
         add_scaled(sum[face.spring[1] * kLanes + lane], -w[0] * w[2], m);
         add_scaled(sum[face.spring[2] * kLanes + lane], -w[1] * w[2], m);
       }
-    write_edges(block.pattern->spring.size(), s.spring.data() + block.first_spring * kSpringStride,
-                sum.data(), edge.data() + block.first_spring * kEdgeStride);
+    write_edges(*block.pattern, s.shape.data() + block.first_shape * kPointStride,
+                s.spring.data() + block.first_spring * kSpringStride, sum.data(),
+                edge.data() + block.first_spring * kEdgeStride);
   });
 }
 

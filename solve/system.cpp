@@ -41,13 +41,13 @@ void set_blocks(System& system, Blocks blocks) {
   set_size(system.force, system.n_dof());
   set_size(system.external_force, system.n_dof());
   set_size(system.medium, system.n_row * kLanes);
+  set_size(system.shape, end.first_shape * kPointStride);
   set_size(system.spring, end.first_spring * kSpringStride);
   set_size(system.hinge, end.first_hinge * kHingeStride);
-  set_size(system.normal, end.first_normal * kNormalStride);
   set_size(system.face, end.first_face * kFaceStride);
   set_size(system.beam, end.first_beam * kBeamStride);
+  clear_own(system, system.shape, &Block::first_shape, kPointStride);
   clear_own(system, system.hinge, &Block::first_hinge, kHingeStride);
-  clear_own(system, system.normal, &Block::first_normal, kNormalStride);
   clear_own(system, system.face, &Block::first_face, kFaceStride);
   clear_own(system, system.beam, &Block::first_beam, kBeamStride);
   clear_loads(system);

@@ -39,14 +39,14 @@ inline std::size_t find_spring(const BlockPattern& p, int i, int j) {
 }
 
 /// Floats of one element, all eight lanes.
-inline constexpr int kSpringStride =
-    5 * kLanes;  ///< u (3), a, c: matrix a u u^T + c I on x_j - x_i
-/// a, b, c, d: g = a n1 on wing 0, b n2 on wing 1, c n1 + d n2 on spring point 0, and on spring
-/// point 1 minus their sum, with the normals n1 and n2 of the faces: matrix g g^T
+/// a, c: matrix a d d^T + c I on x_j - x_i, with the difference d = s_j - s_i of the shape
+inline constexpr int kSpringStride = 2 * kLanes;
+/// a, b, c, e: g = a n1 on wing 0, b n2 on wing 1, c n1 + e n2 on spring point 0, and on spring
+/// point 1 minus their sum: matrix g g^T. Normals of the two faces, from d of the spring: n1 = d x
+/// (s_wing0 - s_j), n2 = (s_wing1 - s_j) x d
 inline constexpr int kHingeStride = 4 * kLanes;
-inline constexpr int kNormalStride = 3 * kLanes;  ///< of a face at hinges; its length is free
-inline constexpr int kEdgeStride = 6 * kLanes;    ///< xx xy xz yy yz zz: a spring's matrix in full
-inline constexpr int kFaceStride = 6 * kLanes;    ///< g1 g2, g3 = -(g1 + g2): matrix g g^T
+inline constexpr int kEdgeStride = 6 * kLanes;  ///< xx xy xz yy yz zz: a spring's matrix in full
+inline constexpr int kFaceStride = 6 * kLanes;  ///< g1 g2, g3 = -(g1 + g2): matrix g g^T
 /// g on the second end, minus that on the first; on the rotations; in two directions across the
 /// beam: matrix g g^T + h h^T
 inline constexpr int kBeamStride = 12 * kLanes;
@@ -73,9 +73,9 @@ struct System {
   RowVector<double> force;           ///< [n_row][3][lane] nN, forces inside and between cells
   RowVector<double> external_force;  ///< [n_row][3][lane] nN, migration and prescribed loads
   RowVector<double> medium;          ///< [n_row][lane] nN s/um, friction with the medium at rest
-  RowVector<float> spring;           ///< [n_spring][5][lane]; a and c in nN/um
+  RowVector<float> shape;            ///< [n_shape_row][3][lane] um, places of points of springs
+  RowVector<float> spring;           ///< [n_spring][2][lane] nN/um^3 and nN/um
   RowVector<float> hinge;            ///< [n_hinge][4][lane] times a normal: sqrt(nN/um)
-  RowVector<float> normal;           ///< [n_normal][3][lane]
   RowVector<float> face;             ///< [n_face][6][lane] sqrt(nN/um)
   RowVector<float> beam;             ///< [n_beam][12][lane] sqrt(nN/um)
   std::vector<RankOne> rank_one;
@@ -150,7 +150,7 @@ void clear_own_rows(const System& s, std::size_t stride, RowVector<T>& v) {
 template <class S, class F>
 void for_each_row_array(S& system, const F& f) {
   for (auto* v : {&system.force, &system.external_force, &system.medium}) f(*v);
-  for (auto* v : {&system.spring, &system.hinge, &system.normal, &system.face, &system.beam}) f(*v);
+  for (auto* v : {&system.shape, &system.spring, &system.hinge, &system.face, &system.beam}) f(*v);
   for (auto& family : system.rank_one) f(family.vector);
 }
 
@@ -170,15 +170,14 @@ void stream_rows(const System& system, std::span<const double> x,
                  const std::function<void(std::size_t, std::span<const double>)>& put,
                  std::size_t most = 40000);
 
-/// Zeroes every load that models add to; keeps capacity and scales. Hinges with their normals,
-/// faces, beams and point links are written, not added to, by the one term each belongs to.
+/// Zeroes every load that models add to; keeps capacity and scales. Shapes, hinges, faces, beams
+/// and point links are written, not added to, by the one term each belongs to.
 void clear_loads(System& system);
 
-/// Adds stiffness to a spring: a + c along u, c across it.
-ACINUS_INLINE void add_spring(float* element, const Lane3& u, Lane a, Lane c) {
-  store3(element, u);
-  store(element + 3 * kLanes, load(element + 3 * kLanes) + a);
-  store(element + 4 * kLanes, load(element + 4 * kLanes) + c);
+/// Adds a d d^T + c I to a spring.
+ACINUS_INLINE void add_spring(float* element, Lane a, Lane c) {
+  store(element, load(element) + a);
+  store(element + kLanes, load(element + kLanes) + c);
 }
 
 }  // namespace acinus::solve

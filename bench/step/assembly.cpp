@@ -55,7 +55,7 @@ double matrix_bytes(const solve::Block& block) {
   return 4.0 *
          (static_cast<double>(block.pattern->spring.size()) * solve::kSpringStride +
           static_cast<double>(block.pattern->wing.size()) * solve::kHingeStride +
-          static_cast<double>(block.pattern->n_normal) * solve::kNormalStride +
+          (block.pattern->has_shape() ? block.pattern->n_point : 0) * 1.0 * kPointStride +
           static_cast<double>(block.pattern->face.size()) * solve::kFaceStride) /
          kLanes;
 }

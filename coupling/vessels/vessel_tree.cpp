@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace acinus::coupling {
@@ -53,11 +54,18 @@ void put(const Vec3& v, std::size_t number, float* element) {
     element[(number + k) * kLanes + kLane] = static_cast<float>(v[static_cast<int>(k)]);
 }
 
-/// Spring of the block: `along` in the direction u, `across` in all others.
-void put_spring(const Vec3& u, double along, double across, float* element) {
-  put(u, 0, element);
-  element[3 * kLanes + kLane] = static_cast<float>(along - across);
-  element[4 * kLanes + kLane] = static_cast<float>(across);
+/// Spring of the block: `along` in its direction, `across` in all others.
+void put_spring(double length, double along, double across, float* element) {
+  element[kLane] = static_cast<float>((along - across) / (length * length));
+  element[kLanes + kLane] = static_cast<float>(across);
+}
+
+/// Writes the places of nodes from their mean, for their rotations as well.
+void put_shape(const TreeState& s, float* shape) {
+  const Vec3 sum = std::accumulate(s.node.begin(), s.node.end(), Vec3(Vec3::Zero()));
+  const Vec3 middle = sum / static_cast<double>(s.node.size());
+  for (std::size_t i = 0; i < s.n_row(); ++i)
+    put(s.node[i % s.node.size()] - middle, 0, shape + i * kPointStride);
 }
 
 }  // namespace
@@ -152,6 +160,7 @@ void add_tree_loads(const VesselTree& tree, const TreeState& s, const solve::Blo
   const auto address = [&](int point) {
     return make_address(block.first_row + static_cast<std::size_t>(point), kLane);
   };
+  put_shape(s, system.shape.data() + block.first_shape * kPointStride);
   float* spring = system.spring.data() + block.first_spring * solve::kSpringStride;
   float* beam = system.beam.data() + block.first_beam * solve::kBeamStride;
   for (std::size_t k = 0; k < tree.beam.size(); ++k) {
@@ -163,9 +172,10 @@ void add_tree_loads(const VesselTree& tree, const TreeState& s, const solve::Blo
     for (std::size_t end = 0; end < 2; ++end)
       add_point(system.force.data(), address(point[2 + end]), load.moment[end]);
     const BeamStiffness stiffness = compute_stiffness(tree.beam[k], ends);
-    put_spring(stiffness.along, scale * stiffness.axial, scale * stiffness.lateral, spring);
+    const double length = (ends.place[1] - ends.place[0]).norm();
+    put_spring(length, scale * stiffness.axial, scale * stiffness.lateral, spring);
     spring += solve::kSpringStride;
-    put_spring(stiffness.along, scale * stiffness.twist, scale * stiffness.bend, spring);
+    put_spring(length, scale * stiffness.twist, scale * stiffness.bend, spring);
     spring += solve::kSpringStride;
     for (std::size_t d = 0; d < 2; ++d) {
       put(root * stiffness.place[d], 6 * d, beam);

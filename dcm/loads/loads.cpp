@@ -4,6 +4,7 @@
 
 #include "core/parallel/make_room.hpp"
 #include "dcm/group_view.hpp"
+#include "dcm/loads/matrix_shape.hpp"
 #include "dcm/terms/area.hpp"
 #include "dcm/terms/bending.hpp"
 #include "dcm/terms/body_load.hpp"
@@ -65,6 +66,7 @@ void add_loads(const State& state, std::span<const Params> params, const LaneDat
   for_each_loaded_group(state, lanes, s, [&](const GroupView& g) {
     const std::size_t k = g.index;
     const Params& p = params[state.group[k].type];
+    write_shape(g, s);
     if (p.series_friction > 0)
       add_series_springs(p, g, s);
     else if (p.spring_stiffness > 0 || p.nodal_friction > 0)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dcm/loads/matrix_shape.hpp"
 #include "dcm/terms/rank_one.hpp"
 
 namespace acinus::dcm {
@@ -27,13 +28,12 @@ ACINUS_KERNEL void area_kernel(const GroupView& g, double* gradient, double* are
   store(area, sum);
 }
 
-/// Adds across (I - u u^T) between the ends of every edge.
+/// Adds across (I - u u^T) between the ends of every edge, in the direction u.
 ACINUS_KERNEL void tension_kernel(const GroupView& g, const double* across_of_lane,
-                                  float* element) {
+                                  const float* shape, float* element) {
   const Lane across = load(across_of_lane);
   for (const auto& [i, j] : g.topology->edge) {
-    const Lane3 d = load3(g.position + j * kPointStride) - load3(g.position + i * kPointStride);
-    solve::add_spring(element, (1.0 / lane_sqrt(dot(d, d))) * d, -across, across);
+    solve::add_spring(element, -across / squared_length(shape, i, j), across);
     element += solve::kSpringStride;
   }
 }
@@ -54,7 +54,9 @@ void add_area(const Params& p, const GroupView& g, solve::System& s, solve::Rank
     across[l] = s.stiffness_scale * std::max(0.0, -pull[l]) / std::sqrt(3.0);
     tense = tense || across[l] > 0;
   }
-  if (tense) tension_kernel(g, across, s.spring.data() + g.first_spring * solve::kSpringStride);
+  if (tense)
+    tension_kernel(g, across, shape_of(g, s),
+                   s.spring.data() + g.first_spring * solve::kSpringStride);
   add_scaled(g.topology->n_node, pull, gradient, s.force.data() + g.first_row * kPointStride);
 }
 

@@ -55,7 +55,7 @@ ACINUS_INLINE void add_collapse(Lane k, const Collapse& c, double stiffness_scal
   // a spring along every edge that is at least as stiff in all directions.
   const Lane3 median = x[0] - lane_of(0.5) * (x[1] + x[2]);
   const Lane stiffness = (2.0 / 3.0) * k * c.slope * c.slope * dot(median, median);
-  float* const across = spring + 4 * kLanes;
+  float* const across = spring + kLanes;
   store(across, load(across) + stiffness_scale * stiffness);
 }
 
@@ -116,23 +116,12 @@ ACINUS_INLINE void add_collapses(const EdgeFaces& f, const std::array<int, 4>& h
 /// Arrays that the kernel writes.
 struct BendingOutput {
   double* force;
-  float *hinge, *normal, *spring;
+  float *hinge, *spring;
 };
-
-/// Writes the normals of all faces, times twice their areas, um^2.
-ACINUS_INLINE void store_normals(const GroupView& g, float* normal) {
-  for (const auto& [i, j, k] : g.topology->triangle) {
-    const Lane3 x = load3(g.position + i * kPointStride);
-    store3(normal, cross(load3(g.position + j * kPointStride) - x,
-                         load3(g.position + k * kPointStride) - x));
-    normal += solve::kNormalStride;
-  }
-}
 
 ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double stiffness_scale,
                                   const BendingOutput& out) {
-  auto [force, element, normal, spring] = out;
-  store_normals(g, normal);
+  auto [force, element, spring] = out;
   const geometry::Topology& t = *g.topology;
   const Lane k = p.bending_stiffness * load(g.active);
   const Lane radius = load(g.radius);
@@ -199,7 +188,6 @@ void add_bending(const Params& p, const GroupView& g, solve::System& s) {
   bending_kernel(p, g, s.stiffness_scale,
                  {s.force.data() + g.first_row * kPointStride,
                   s.hinge.data() + g.first_hinge * solve::kHingeStride,
-                  s.normal.data() + g.first_normal * solve::kNormalStride,
                   s.spring.data() + g.first_spring * solve::kSpringStride});
 }
 

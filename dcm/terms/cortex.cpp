@@ -26,7 +26,7 @@ ACINUS_KERNEL void cortex_kernel(const Params& p, const GroupView& g, double sti
     const Lane geometric = stiffness_scale * lane_max0(k * (1.0 - l0 * inverse));
     const Lane across = geometric + p.friction_across * friction;
     const Lane along = stiffness_scale * k + friction;
-    solve::add_spring(element, u, along - across, across);
+    solve::add_spring(element, (along - across) * inverse * inverse, across);
     element += solve::kSpringStride;
   }
 }

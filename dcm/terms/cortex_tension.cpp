@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "dcm/loads/matrix_shape.hpp"
 #include "dcm/terms/area.hpp"
 
 namespace acinus::dcm {
@@ -52,24 +53,23 @@ ACINUS_KERNEL void tension_forces(double tension, const GroupView& g, const doub
   }
 }
 
-/// Excess length of unit vectors stored as floats; reduced by as much along the edge, the matrix
-/// has no negative eigenvalue.
+/// Bound of the rounding of coefficients stored as floats; reduced by as much along the edge, the
+/// matrix has no negative eigenvalue.
 constexpr double kRounding = 1e-6;
 
 /// Adds the geometric stiffness.
 /// @param factor  [n_triangle][lane], of which an edge takes the mean of its two; null: all 1
 ACINUS_KERNEL void tension_springs(double across, const GroupView& g, const double* factor,
-                                   float* element) {
+                                   const float* shape, float* element) {
   const geometry::Topology& t = *g.topology;
   const Lane uniform = across * load(g.active);
   for (std::size_t e = 0; e < t.edge.size(); ++e) {
-    const int i = t.edge[e][0], j = t.edge[e][1];
-    const Lane3 d = load3(g.position + j * kPointStride) - load3(g.position + i * kPointStride);
     Lane c = uniform;
     if (factor)
       c = c * (0.5 * (load(factor + t.edge_triangle[e][0] * kLanes) +
                       load(factor + t.edge_triangle[e][1] * kLanes)));
-    solve::add_spring(element, (1.0 / lane_sqrt(dot(d, d))) * d, (kRounding - 1) * c, c);
+    const Lane squared = squared_length(shape, t.edge[e][0], t.edge[e][1]);
+    solve::add_spring(element, (kRounding - 1) * c / squared, c);
     element += solve::kSpringStride;
   }
 }
@@ -85,7 +85,7 @@ void add_cortex_tension(const Params& p, const GroupView& g, solve::System& s) {
   if (has_ring(p)) compute_ring_factors(*p.ring, g, ring);
   const double* factor = has_ring(p) ? ring.data() : nullptr;
   tension_forces(p.cortex_tension, g, factor, s.force.data() + g.first_row * kPointStride);
-  tension_springs(s.stiffness_scale * p.cortex_tension / std::sqrt(3.0), g, factor,
+  tension_springs(s.stiffness_scale * p.cortex_tension / std::sqrt(3.0), g, factor, shape_of(g, s),
                   s.spring.data() + g.first_spring * solve::kSpringStride);
 }
 

@@ -1,5 +1,6 @@
 #include "dcm/terms/nucleus_shell.hpp"
 
+#include "dcm/loads/matrix_shape.hpp"
 #include "dcm/terms/area.hpp"
 #include "dcm/terms/bending.hpp"
 #include "dcm/terms/cortex.hpp"
@@ -22,6 +23,7 @@ Params nucleus_shell(const Params& p) {
 
 void add_nucleus_shell(const Params& shell, const GroupView& g, solve::RankOne* volume,
                        solve::RankOne* area, solve::System& s) {
+  write_shape(g, s);
   if (shell.spring_stiffness > 0 || shell.nodal_friction > 0) add_cortex(shell, g, s);
   if (shell.bending_stiffness > 0) add_bending(shell, g, s);
   if (volume != nullptr) add_volume(shell, g, s, *volume);

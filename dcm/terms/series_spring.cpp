@@ -31,7 +31,7 @@ ACINUS_KERNEL void series_kernel(const Params& p, const GroupView& g, const Seri
     const Lane geometric = stiffness_scale * lane_max0(tension * inverse);
     const Lane across = geometric + p.friction_across * friction;
     const Lane along = stiffness_scale * k + friction;
-    solve::add_spring(element, u, along - across, across);
+    solve::add_spring(element, (along - across) * inverse * inverse, across);
     element += solve::kSpringStride;
   }
 }

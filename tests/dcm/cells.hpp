@@ -4,10 +4,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "dcm/lane_data.hpp"
 #include "dcm/loads/loads.hpp"
+#include "dcm/loads/matrix_shape.hpp"
 #include "dcm/state.hpp"
 #include "dcm/terms/area.hpp"
 #include "dcm/terms/bending.hpp"
@@ -40,6 +42,11 @@ struct Cells {
   solve::System system;
 
   GroupView view() const { return view_group(state, lanes, system, 0); }
+  /// The same for terms, which need the shape.
+  GroupView view() {
+    write_shape(std::as_const(*this).view(), system);
+    return std::as_const(*this).view();
+  }
   void reset() {
     lanes = make_lane_data(state, 0);
     const Params p = table_one();

@@ -63,25 +63,26 @@ inline void add_elements(Eigen::MatrixXd& to, const solve::System& s, const solv
     return make_address(block.first_row + static_cast<std::size_t>(point), lane);
   };
   const solve::BlockPattern& p = *block.pattern;
+  const auto place = [&](int point) {
+    return element_vector(
+        s.shape, (block.first_shape + static_cast<std::size_t>(point)) * kPointStride, lane);
+  };
   for (std::size_t e = 0; e < p.spring.size(); ++e) {
     const std::size_t k = (block.first_spring + e) * solve::kSpringStride;
-    const Vec3 u = element_vector(s.spring, k, lane);
+    const Vec3 d = place(p.spring[e][1]) - place(p.spring[e][0]);
     const auto number = [&](std::size_t i) {
       return static_cast<double>(s.spring[k + i * kLanes + static_cast<std::size_t>(lane)]);
     };
     add_relative(to, {{at(p.spring[e][1]), 1}, {at(p.spring[e][0]), -1}},
-                 number(3) * u * u.transpose() + number(4) * Mat3::Identity());
+                 number(0) * d * d.transpose() + number(1) * Mat3::Identity());
   }
   for (std::size_t e = 0; e < p.wing.size(); ++e) {
     const std::size_t k = (block.first_hinge + e) * solve::kHingeStride;
     const auto number = [&](std::size_t i) {
       return static_cast<double>(s.hinge[k + i * kLanes + static_cast<std::size_t>(lane)]);
     };
-    const auto normal = [&](int face) {
-      const std::size_t n = block.first_normal + static_cast<std::size_t>(face);
-      return element_vector(s.normal, n * solve::kNormalStride, lane);
-    };
-    const Vec3 n1 = normal(p.flank[e][0]), n2 = normal(p.flank[e][1]);
+    const Vec3 end = place(p.spring[e][1]), d = end - place(p.spring[e][0]);
+    const Vec3 n1 = d.cross(place(p.wing[e][0]) - end), n2 = (place(p.wing[e][1]) - end).cross(d);
     const Vec3 g1 = number(0) * n1, g2 = number(1) * n2, g3 = number(2) * n1 + number(3) * n2;
     add_outer(to, {{at(p.wing[e][0]), g1},
                    {at(p.wing[e][1]), g2},

@@ -17,12 +17,7 @@ inline const BlockPattern kSeven{7,
                                  {{0, 6}, {2, 5}, {1, 4}, {0, 3}, {5, 6}, {2, 3}},
                                  {{3, 5}, {3, 6}, {0, 2}, {6, 2}, {0, 2}, {5, 0}},
                                  {{0, 6, 3}, {2, 5, 1}, {4, 1, 0}},
-                                 {},
-                                 {},
-                                 {},
-                                 -1,
-                                 {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {1, 4}, {3, 6}},
-                                 8};
+                                 {}};
 inline const BlockPattern kSingle{1, {}, {}, {}};
 
 inline Block block_of(const BlockPattern& pattern) {
@@ -33,17 +28,18 @@ inline Block block_of(const BlockPattern& pattern) {
 
 /// Fills the elements within the cells. A spring may be softer along its direction than across.
 inline void fill_elements(System& s, UniformStream& random) {
+  for (float& v : s.shape) v = static_cast<float>(random.uniform(-0.6, 0.6));
+  constexpr double kLongest2 = 3 * 1.2 * 1.2;  // um^2, squared length of a spring of that shape
   for (std::size_t at = 0; at < s.spring.size(); at += kSpringStride)
     for (std::size_t l = 0; l < kLanes; ++l) {
-      const Vec3 u = random.unit_vector();
-      for (std::size_t k = 0; k < 3; ++k)
-        s.spring[at + k * kLanes + l] = static_cast<float>(u[static_cast<Eigen::Index>(k)]);
       const double across = random.uniform(0, 0.5);
-      s.spring[at + 3 * kLanes + l] = static_cast<float>(random.uniform(-0.9 * across, 1));
-      s.spring[at + 4 * kLanes + l] = static_cast<float>(across);
+      const bool is_softer = random.uniform() < 0.3;
+      const double more =
+          is_softer ? -random.uniform(0, 0.9) * across / kLongest2 : random.uniform();
+      s.spring[at + l] = static_cast<float>(more);
+      s.spring[at + kLanes + l] = static_cast<float>(across);
     }
   for (float& v : s.face) v = static_cast<float>(random.uniform(-0.7, 0.7));
-  for (float& v : s.normal) v = static_cast<float>(random.uniform(-0.7, 0.7));
   for (float& v : s.hinge)  // not near 0, which would leave cells with soft modes
     v = static_cast<float>(random.uniform(0.7, 1.3) * (random.uniform() < 0.5 ? -1 : 1));
 }

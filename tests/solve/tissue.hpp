@@ -51,8 +51,6 @@ inline Mesh make_icosphere(int n_node) {
   const geometry::Topology& t = geometry::shared_icosphere(n_node);
   Mesh m{t.triangle, {t.n_node, t.edge, {}, {}}};
   for (const auto& h : t.hinge) m.pattern.wing.push_back({h[0], h[1]});
-  m.pattern.flank = t.edge_triangle;
-  m.pattern.n_normal = t.n_triangle;
   index_springs(m.pattern);
   return m;
 }
