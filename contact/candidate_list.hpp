@@ -60,7 +60,7 @@ class CandidateList {
     wide_ = n_triangle_ > kLow || std::ranges::any_of(from.point, is_large) ||
             std::ranges::any_of(from.triangle, is_large);
     first_ = wide_ ? 3 * n_point_ : n_point_ + (n_point_ + 1) / 2;
-    word_ = std::vector<std::uint32_t>(first_ + (wide_ ? 2 : 1) * n_triangle_);
+    set_length(first_ + (wide_ ? 2 : 1) * n_triangle_);
     for (std::uint32_t p = 0; p < n_point_; ++p) {
       const auto point = static_cast<std::uint32_t>(from.point[p]);
       const std::uint32_t gap = from.gap.empty() ? 0 : cut(from.gap[p]), end = from.start[p + 1];
@@ -84,6 +84,15 @@ class CandidateList {
   std::size_t memory() const { return word_.capacity() * sizeof(std::uint32_t); }
 
  private:
+  /// Zeros. A list made again is about as long as before and stays where it is: arrays that move at
+  /// every change of their length leave gaps between those of others.
+  void set_length(std::size_t n) {
+    if (n > word_.capacity() || n < word_.capacity() / 4 * 3) {
+      word_ = std::vector<std::uint32_t>();  // before the new array is there
+      word_.reserve(n + n / 16);
+    }
+    word_.assign(n, 0);
+  }
   static constexpr std::uint32_t kLow = 0xffff, kHalf = 16;
   /// Bits of a float without those of the lower half.
   static std::uint32_t cut(float x) { return std::bit_cast<std::uint32_t>(x) & ~kLow; }

@@ -43,6 +43,12 @@ std::uint64_t peak_rss_bytes() {
   return 1024 * static_cast<std::uint64_t>(usage.ru_maxrss);
 }
 
+void return_freed_memory() {
+#if defined(__GLIBC__)
+  malloc_trim(0);
+#endif
+}
+
 void keep_freed_memory() {
 #if defined(__GLIBC__)
   mallopt(M_MMAP_THRESHOLD, 1 << 22);                          // bytes

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/parallel/memory.hpp"
 #include "coupling/step/ghost_cells.hpp"
 #include "coupling/step/held_cells.hpp"
 #include "coupling/step/held_contacts.hpp"
@@ -62,6 +63,7 @@ void release_solve(Workspace& w) {
   w.cg = {};
   w.rigid.mode = RowVector<double>();  // assigning {} would keep the memory
   w.linearisation = {};
+  return_freed_memory();
 }
 
 void release_scratch(Workspace& w) {

@@ -16,7 +16,8 @@ void size_workspace(World& world, Workspace& work);
 /// Sizes what contacts need: their search begins anew with the present set of cells.
 void begin_contacts(const World& world, Workspace& work);
 
-/// Frees the vectors that a step makes anew for its solve, as room for other states of the cells.
+/// Frees the vectors that a step makes anew for its solve, as room for other states of the cells,
+/// and gaps between small arrays.
 void release_solve(Workspace& work);
 /// Frees these and the scratch of products, as room for a frame: what is written is then the only
 /// large thing besides contacts and matrix.
