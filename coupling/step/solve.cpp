@@ -100,9 +100,9 @@ double measure_load(Workspace& w) {
 
 /// Solves for the displacement from the point of linearisation, in w.move that of the whole step.
 /// That of constrained cells is known: their penalty forces would exceed all others.
+/// @pre place_constrained for the initial guess
 /// @param at_point  the initial guess is the point; else it is the last solution
 Status solve_from_point(const World& world, Workspace& w, bool at_point, Effort& effort) {
-  place_constrained({}, w);
   prepare_coarse(world, w);
   subtract_point_friction(w);
   if (at_point) w.cg.load = measure_load(w);
