@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dcm/loads/matrix_shape.hpp"
+#include "dcm/terms/matrix_shape.hpp"
 #include "dcm/terms/rank_one.hpp"
 
 namespace acinus::dcm {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "dcm/loads/matrix_shape.hpp"
 #include "dcm/terms/area.hpp"
+#include "dcm/terms/matrix_shape.hpp"
 
 namespace acinus::dcm {
 namespace {

@@ -1,9 +1,9 @@
 #include "dcm/terms/nucleus_shell.hpp"
 
-#include "dcm/loads/matrix_shape.hpp"
 #include "dcm/terms/area.hpp"
 #include "dcm/terms/bending.hpp"
 #include "dcm/terms/cortex.hpp"
+#include "dcm/terms/matrix_shape.hpp"
 #include "dcm/terms/volume.hpp"
 
 namespace acinus::dcm {

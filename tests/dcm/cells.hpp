@@ -9,12 +9,12 @@
 
 #include "dcm/lane_data.hpp"
 #include "dcm/loads/loads.hpp"
-#include "dcm/loads/matrix_shape.hpp"
 #include "dcm/state.hpp"
 #include "dcm/terms/area.hpp"
 #include "dcm/terms/bending.hpp"
 #include "dcm/terms/cortex.hpp"
 #include "dcm/terms/local_area.hpp"
+#include "dcm/terms/matrix_shape.hpp"
 #include "dcm/terms/volume.hpp"
 #include "geometry/topology.hpp"
 #include "solve/operator.hpp"

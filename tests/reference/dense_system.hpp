@@ -56,6 +56,24 @@ inline void add_medium(Eigen::MatrixXd& to, const solve::System& s) {
                        Mat3::Identity());
 }
 
+/// Point of the shape, from which directions of springs and hinges are taken.
+inline Vec3 shape_place(const solve::System& s, const solve::Block& block, int point, int lane) {
+  const std::size_t row = block.first_shape + static_cast<std::size_t>(point);
+  return element_vector(s.shape, row * kPointStride, lane);
+}
+
+/// Matrix of a spring on the displacement of its ends from each other.
+inline Mat3 spring_matrix(const solve::System& s, const solve::Block& block, std::size_t e,
+                          int lane) {
+  const auto& [i, j] = block.pattern->spring[e];
+  const Vec3 d = shape_place(s, block, j, lane) - shape_place(s, block, i, lane);
+  const auto number = [&](std::size_t k) {
+    const std::size_t at = (block.first_spring + e) * solve::kSpringStride + k * kLanes;
+    return static_cast<double>(s.spring[at + static_cast<std::size_t>(lane)]);
+  };
+  return number(0) * d * d.transpose() + number(1) * Mat3::Identity();
+}
+
 /// Springs, hinges, faces and beams of one lane of a block.
 inline void add_elements(Eigen::MatrixXd& to, const solve::System& s, const solve::Block& block,
                          int lane) {
@@ -63,19 +81,10 @@ inline void add_elements(Eigen::MatrixXd& to, const solve::System& s, const solv
     return make_address(block.first_row + static_cast<std::size_t>(point), lane);
   };
   const solve::BlockPattern& p = *block.pattern;
-  const auto place = [&](int point) {
-    return element_vector(
-        s.shape, (block.first_shape + static_cast<std::size_t>(point)) * kPointStride, lane);
-  };
-  for (std::size_t e = 0; e < p.spring.size(); ++e) {
-    const std::size_t k = (block.first_spring + e) * solve::kSpringStride;
-    const Vec3 d = place(p.spring[e][1]) - place(p.spring[e][0]);
-    const auto number = [&](std::size_t i) {
-      return static_cast<double>(s.spring[k + i * kLanes + static_cast<std::size_t>(lane)]);
-    };
+  const auto place = [&](int point) { return shape_place(s, block, point, lane); };
+  for (std::size_t e = 0; e < p.spring.size(); ++e)
     add_relative(to, {{at(p.spring[e][1]), 1}, {at(p.spring[e][0]), -1}},
-                 number(0) * d * d.transpose() + number(1) * Mat3::Identity());
-  }
+                 spring_matrix(s, block, e, lane));
   for (std::size_t e = 0; e < p.wing.size(); ++e) {
     const std::size_t k = (block.first_hinge + e) * solve::kHingeStride;
     const auto number = [&](std::size_t i) {

@@ -146,16 +146,8 @@ TEST(MergedLinks, AreTheSumsOverContactsWorkedOutPlainly) {
         const Block block = s.block[b];
         const std::size_t k = block.first_spring + e, lane = l;
         Sum expected;
-        const auto number = [&](std::size_t i) {
-          return static_cast<double>(s.spring[k * kSpringStride + i * kLanes + lane]);
-        };
+        expected.add(1, reference::spring_matrix(s, block, e, l));
         const auto [i, j] = block.pattern->spring[e];
-        const auto place = [&](int n) {
-          const std::size_t row = block.first_shape + static_cast<std::size_t>(n);
-          return reference::element_vector(s.shape, row * kPointStride, l);
-        };
-        const Vec3 d = place(j) - place(i);
-        expected.add(1, number(0) * d * d.transpose() + number(1) * Mat3::Identity());
         auto point = [&](int n) {
           return static_cast<Point>((block.first_row + static_cast<std::size_t>(n)) * kLanes +
                                     lane);

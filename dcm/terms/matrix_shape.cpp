@@ -1,4 +1,4 @@
-#include "dcm/loads/matrix_shape.hpp"
+#include "dcm/terms/matrix_shape.hpp"
 
 namespace acinus::dcm {
 namespace {
