@@ -232,11 +232,16 @@ TEST_F(LifeInspection, HoldsNewbornCellsToTheLimitsOfAll) {
   change_cell(record_.frames[2], born[1], mirrored);
   EXPECT_TRUE(defects().contains(Defect::kInverted));
   record_ = sound();
-  // Into the place of her sister, on the other side of z = 0.
-  const auto moved = [](const Vec3& x) {
-    return Vec3(x.x(), x.y(), x.z() > 0 ? x.z() - 8 : x.z() + 8);
-  };
-  change_cell(record_.frames[2], born[1], moved);
+  // Into the place of her sister, on the other side of z = 0. Nodes of their common face lie on
+  // either side of it by rounding.
+  double height = 0;
+  change_cell(record_.frames[2], born[1], [&](const Vec3& x) {
+    height += x.z();
+    return x;
+  });
+  const double shift = height > 0 ? -8 : 8;  // um
+  change_cell(record_.frames[2], born[1],
+              [&](const Vec3& x) { return Vec3(x.x(), x.y(), x.z() + shift); });
   EXPECT_TRUE(defects().contains(Defect::kTunnelled));
 }
 
